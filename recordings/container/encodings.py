@@ -14,7 +14,7 @@ def zenoh_encoding(channel: ChannelRecord) -> str:
     if ENCODING in channel.metadata:
         return channel.metadata[ENCODING]
     kind = _TYPES.get(channel.encoding, _RAW)
-    return f"{kind};{channel.schema.name}" if channel.schema is not None and channel.schema.name else kind
+    return f"{kind};{channel.schema_name}" if channel.schema_name else kind
 
 
 def mcap_encoding(encoding: str) -> tuple[str, str]:

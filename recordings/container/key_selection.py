@@ -35,6 +35,11 @@ class KeySelection:
             return False
         return not self.include or any(key_pattern(expression).fullmatch(key) for expression in self.include)
 
+    def key_of(self, topic: str) -> str | None:
+        """The key of a topic of any MCAP file: its name without a leading `/`; None if it is not selected."""
+        key = topic.removeprefix("/")
+        return key if self.includes(key) else None
+
 
 EVERYTHING = KeySelection()
 """Selects all keys."""

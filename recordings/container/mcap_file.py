@@ -53,6 +53,11 @@ class ChannelRecord:
         return self.metadata.get("topic", "")
 
     @property
+    def schema_name(self) -> str:
+        """Name of its schema; empty without one."""
+        return self.schema.name if self.schema is not None else ""
+
+    @property
     def start(self) -> float:
         """Time of its first message, s."""
         return self.first_ns / 1e9

@@ -27,7 +27,7 @@ def copy_log(
     Raises:
         TouchlineError: no message is selected, a file is damaged inside, or the copy cannot be written.
     """
-    log = open_log(paths, lambda topic: topic if selection.includes(topic.removeprefix("/")) else None)
+    log = open_log(paths, selection.key_of)
     check_no_match(log)
     if any(out.exists() and out.samefile(file.path) for file in log.files):
         raise TouchlineError(f"{out}: would overwrite the file that is read; give another name for --out")

@@ -1,6 +1,5 @@
 """Finds where a recording contradicts itself: its sealed result, its manifest, its attachments, its messages."""
 
-from collections import deque
 from collections.abc import Iterator
 from typing import Any
 
@@ -16,10 +15,8 @@ from schemas.messages.applied import Applied
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameState
 from schemas.natural_order import natural_order
-from schemas.topics import APPLIED, EVENT, STATE
+from schemas.topics import APPLIED, STATE
 
-_LAST_S = 3.0
-"""Simulated time before the last message of a key in which its last valid message is searched."""
 _ENDS = (EndReason.FULL_TIME, EndReason.HOST_GONE, EndReason.STOPPED)
 """Ends of a recording whose result describes the last messages of the file."""
 _FROM_MATCH_FILE = ("pace", "rules", "duration", "referee", "officiating")
@@ -126,38 +123,25 @@ def _of_counts(result: Result, recording: Recording) -> Iterator[str]:
         sealed = result.keys.get(key, KeyCount()).messages
         if there.get(key, 0) != sealed:
             yield f"{key}: {there.get(key, 0)} messages in the file, {sealed} in the result"
-    totals = {
-        "messages": sum(count.messages for count in result.keys.values()),
-        "lost": sum(count.lost for count in result.keys.values()),
-        "events": result.keys.get(EVENT.key, KeyCount()).messages,
-    }
-    for name, total in totals.items():
-        if getattr(result, name) != total:
-            yield f"the result has {getattr(result, name)} {name}, and {total} on its keys"
+    counted = result.counted(result.keys)
+    for name in ("messages", "lost", "events"):
+        if getattr(result, name) != getattr(counted, name):
+            yield f"the result has {getattr(result, name)} {name}, and {getattr(counted, name)} on its keys"
 
 
 def _of_ending(result: Result, recording: Recording) -> Iterator[str]:
     """Score, phase and last tick in the result, and in the last messages."""
     if result.ended not in _ENDS or recording.manifest.made != "recorded":
         return
-    state: GameState | None = _last(recording, STATE.key)
+    state: GameState | None = recording.last(STATE.key)
     if state is not None:
         for name in ("score", "value", "phase"):
             sealed, recorded = getattr(result, name), getattr(state, name)
             if sealed != recorded:
                 yield f"the {name} is {_text(sealed)} in the result, {_text(recorded)} in the last {STATE.key}"
-    applied: Applied | None = _last(recording, APPLIED.key)
+    applied: Applied | None = recording.last(APPLIED.key)
     if applied is not None and applied.tick != result.tick:
         yield f"the last tick is {result.tick} in the result, {applied.tick} in the last {APPLIED.key}"
-
-
-def _last(recording: Recording, key: str) -> Any:
-    """The last valid message of a key; None if there is none."""
-    channel = next((one for one in recording.channels if one.key == key and one.messages), None)
-    if channel is None:
-        return None
-    newest = deque(recording.decoded(key, start=max(0.0, channel.end - _LAST_S)), maxlen=1)
-    return newest[0][1] if newest else None
 
 
 def _text(value: Any) -> str:

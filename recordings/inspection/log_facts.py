@@ -8,13 +8,12 @@ from pathlib import Path
 from recordings.inspection.recording_facts import CUT_OFF
 from recordings.reading.log_order import open_log
 from recordings.recorder.key_counts import counts_of, was_cut_off
-from schemas.natural_order import natural_order
 
 HEADINGS = ("topic", "encoding", "schema", "messages", "per s", "lost")
 """Column headings for `channel_rows`."""
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class ChannelFacts:
     """Facts of one topic with one encoding."""
 
@@ -69,22 +68,13 @@ def log_facts(paths: Sequence[Path]) -> LogFacts:
         TouchlineError: a file cannot be read, is not MCAP, or there is no message.
     """
     log = open_log(paths)
-    found: dict[tuple[str, str, str], ChannelFacts] = {}
     counts = counts_of(log.files)
-    for _, channel in log.channels:
-        name, language = (channel.schema.name, channel.schema.encoding) if channel.schema is not None else ("", "")
-        key = channel.key, channel.encoding, name
-        start, end = ((ns - log.base_ns) / 1e9 for ns in (channel.first_ns, channel.last_ns))
-        known = found.get(key)
-        if known is None:
-            lost = counts.lost.get(channel.key, 0) if counts is not None else None
-            found[key] = ChannelFacts(
-                channel.key, channel.encoding, name, language, channel.messages, max(0.0, start), max(0.0, end), lost
-            )
-        elif channel.messages:
-            known.messages += channel.messages
-            known.start, known.end = min(known.start, start), max(known.end, end)
-    channels = sorted(found.values(), key=lambda one: natural_order(one.topic))
+    channels = []
+    for key, one in log.merged_channels():
+        start, end = (max(0.0, (ns - log.base_ns) / 1e9) for ns in (one.first_ns, one.last_ns))
+        language = one.schema.encoding if one.schema is not None else ""
+        lost = counts.lost.get(key, 0) if counts is not None else None
+        channels.append(ChannelFacts(key, one.encoding, one.schema_name, language, one.messages, start, end, lost))
     return LogFacts(
         files=[str(file.path) for file in log.files],
         complete=all(file.complete for file in log.files),

@@ -4,6 +4,7 @@ import heapq
 import re
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from itertools import chain
 from operator import attrgetter
 from pathlib import Path
@@ -16,6 +17,7 @@ from recordings.container.chunks import BROKEN, MESSAGE, read_chunk, records_in
 from recordings.container.manifest import MANIFEST
 from recordings.container.mcap_file import DAMAGED, ROW, ChannelRecord, McapFile, open_mcap_file
 from schemas.errors import TouchlineError
+from schemas.natural_order import natural_order
 
 _WINDOW = 10_000
 """Messages of a file without an index among which the next one is looked for."""
@@ -61,6 +63,20 @@ class Log:
         """Log time of the first message, in ns, as in the file."""
         self.end_ns = max((channel.last_ns for channel in counted), default=0) - self.base_ns
         """Time of the last message, in ns since the first."""
+
+    def merged_channels(self) -> list[tuple[str, ChannelRecord]]:
+        """Key and channel, sorted by key; channels of one key, encoding and schema count together."""
+        found: dict[tuple[str, str, str], ChannelRecord] = {}
+        for key, channel in self.channels:
+            kind = key, channel.encoding, channel.schema_name
+            known = found.get(kind)
+            if known is None or not known.messages:
+                found[kind] = channel
+            elif channel.messages:
+                first_ns, last_ns = min(known.first_ns, channel.first_ns), max(known.last_ns, channel.last_ns)
+                total = known.messages + channel.messages
+                found[kind] = replace(known, messages=total, first_ns=first_ns, last_ns=last_ns)
+        return sorted(((key, one) for (key, *_), one in found.items()), key=lambda pair: natural_order(pair[0]))
 
     def messages(self, start_ns: int = 0) -> Iterator[LogMessage]:
         """Yield the messages from this time on, in ns since the first one.

@@ -1,6 +1,6 @@
 """Reads a recording: manifest, result, channels, and its messages, as payloads or decoded."""
 
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -60,6 +60,8 @@ class RecordedMessage(NamedTuple):
 
 _LATEST_NS = 2**31 * 10**9
 """ns of simulated time that no match reaches, and that the stamps of other formats do not hold."""
+_LAST_S = 3.0
+"""Simulated time before the last message of a key in which its last valid message is searched."""
 
 
 class Recording:
@@ -109,6 +111,14 @@ class Recording:
             if channel.key == WORLD.key and channel.messages:
                 return channel.start, channel.end
         raise TouchlineError(f"{self.path}: has no world, so there is nothing to measure; record the key world")
+
+    def last(self, key: str) -> Any:
+        """The last valid message of a key, of the last seconds in which it has messages; None if there is none."""
+        channel = next((one for one in self.channels if one.key == key and one.messages), None)
+        if channel is None:
+            return None
+        newest = deque(self.decoded(key, start=max(0.0, channel.end - _LAST_S)), maxlen=1)
+        return newest[0][1] if newest else None
 
     def lineup(self) -> Lineup:
         """The robots that took part at any time.

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from foxglove import Channel, Schema
     from foxglove.websocket import PlaybackControlRequest, ServerListener
 
-DEFAULT_PORT = 8765
-"""Default port of Foxglove and Lichtblick."""
 _LOOPBACK = "127.0.0.1"
 _MAX_SPEED = 1000.0
 """Speed that is reported for `as fast as possible`, which viewers do not support."""

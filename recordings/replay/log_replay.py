@@ -16,7 +16,6 @@ from runtime.bus.zenoh.any_keys import KeyPublisher, check_key
 from runtime.bus.zenoh.bus import ZenohBus
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayTopic
-from schemas.natural_order import natural_order
 
 
 class Keys:
@@ -43,8 +42,8 @@ class Keys:
         Raises:
             BusError: it cannot be a key.
         """
-        key = topic.removeprefix("/")
-        if not self._selection.includes(key):
+        key = self._selection.key_of(topic)
+        if key is None:
             return None
         for old, new in self._renamed.items():
             if key == old or key.startswith(old + "/"):
@@ -104,21 +103,19 @@ class LogReplay(ReplayLoop):
 
 
 def topics_of(log: Log) -> list[ReplayTopic]:
-    """The topics of a log by key; channels of one key, encoding and schema count together."""
-    found: dict[tuple[str, str, str], ReplayTopic] = {}
-    for key, channel in log.channels:
-        if channel.messages:
-            name = channel.schema.name if channel.schema is not None else ""
-            start, end = ((ns - log.base_ns) / 1e9 for ns in (channel.first_ns, channel.last_ns))
-            one = ReplayTopic(
-                key=key, encoding=channel.encoding, schema=name, messages=channel.messages, start=start, end=end
-            )
-            known = found.get((key, one.encoding, name))
-            if known is not None:
-                messages = one.messages + known.messages
-                one = one.replace(messages=messages, start=min(start, known.start), end=max(end, known.end))
-            found[key, one.encoding, name] = one
-    return sorted(found.values(), key=lambda one: natural_order(one.key))
+    """The topics of a log that have messages, by key."""
+    return [
+        ReplayTopic(
+            key=key,
+            encoding=one.encoding,
+            schema=one.schema_name,
+            messages=one.messages,
+            start=(one.first_ns - log.base_ns) / 1e9,
+            end=(one.last_ns - log.base_ns) / 1e9,
+        )
+        for key, one in log.merged_channels()
+        if one.messages
+    ]
 
 
 def seconds(text: str) -> float:

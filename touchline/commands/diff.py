@@ -1,6 +1,5 @@
 """`touchline diff`: the first difference between two recordings."""
 
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,7 +11,6 @@ from touchline.commands.cli.errors import FAILED
 from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
-    from recordings.container.key_selection import KeySelection
     from recordings.inspection.difference import FieldDifference, RecordingComparison
 
 
@@ -47,7 +45,7 @@ def diff(
     elif start is not None or end is not None:
         raise TouchlineError("--from and --to are times of a match; cut these files by `touchline filter` first")
     else:
-        logs = (open_log([path], partial(_key_of, chosen)) for path in (first, second))
+        logs = (open_log([path], chosen.key_of) for path in (first, second))
         found = compare_logs(*logs)
     if found.identical and not found.messages:
         raise TouchlineError(
@@ -56,11 +54,6 @@ def diff(
     typer.echo(json_text(_facts(found)) if json else _sentence(found, first, second))
     if not found.identical:
         raise typer.Exit(FAILED)
-
-
-def _key_of(chosen: "KeySelection", topic: str) -> str | None:
-    key = topic.removeprefix("/")
-    return key if chosen.includes(key) else None
 
 
 def _sentence(found: "RecordingComparison", first: Path, second: Path) -> str:

@@ -16,7 +16,6 @@ from touchline.matches.statistics.estimates import LEVEL
 from touchline.matches.statistics.ratings import rate
 
 LEAGUE = "league"
-KNOCK_OUT = "knock-out"
 Results = Mapping[str, FixtureResult]
 """Name of a fixture → its matches that are over."""
 Teams = Collection[str]

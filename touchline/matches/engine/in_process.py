@@ -5,7 +5,6 @@ import traceback
 from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import replace
 
-from recordings.container.parts import remove_parts
 from robot_agent.loading.user_code import place_of, sentence_of
 from schemas.errors import TouchlineError
 from schemas.messages.soccer.game import RefereeAction
@@ -90,8 +89,6 @@ def recording_of(planned: PlannedMatch, simulation: Simulation) -> AbstractConte
     """The recording of a match that has just begun, if its plan names a file."""
     if planned.recording is None:
         return nullcontext()
-    planned.recording.parent.mkdir(parents=True, exist_ok=True)
-    remove_parts(planned.recording)  # of a try before
     return closing(MatchRecording(planned.recording, planned.config, simulation))
 
 

@@ -4,6 +4,7 @@ import shutil
 from contextlib import closing
 from pathlib import Path
 
+from recordings.container.parts import remove_parts
 from touchline.matches.engine.code_digest import code_digest
 from touchline.matches.engine.hang_watch import HangWatch
 from touchline.matches.engine.in_process import play_in_process
@@ -25,7 +26,7 @@ def play(planned: PlannedMatch, note: Path | None = None) -> Outcome:
             return Failed(planned.identity, FailureKind.WORKER, reason)
     if planned.recording is not None:
         planned.recording.parent.mkdir(parents=True, exist_ok=True)
-        planned.recording.unlink(missing_ok=True)
+        remove_parts(planned.recording)
     if planned.logs is not None:
         shutil.rmtree(planned.logs, ignore_errors=True)
         planned.logs.mkdir(parents=True, exist_ok=True)

@@ -3,12 +3,10 @@
 The host plays such a match to its end: it drops what is too much, and does not wait for the silent for ever.
 """
 
-from recordings.reading.recording import Recording
 from runtime.access.accounts import Account
 from schemas.config.match_config import MatchConfig
 from schemas.messages.health import Health, RobotHealth
 from schemas.side import Side
-from schemas.topics import HEALTH
 from sim_host.server.admission.door import OVER_LIMIT
 from touchline.matches.engine.outcome import FailureKind
 
@@ -23,14 +21,6 @@ def fault_of(health: Health | None, config: MatchConfig) -> tuple[FailureKind, t
         if reasons:
             return kind, tuple(reasons), "; ".join(reasons.values())
     return None
-
-
-def last_health(recording: Recording) -> Health | None:
-    """The host's last report on its clients; None without one."""
-    last = None
-    for _, health in recording.decoded(HEALTH.key):
-        last = health
-    return last
 
 
 def breach_of(health: Health | None, _: MatchConfig, side: Side) -> str | None:

@@ -142,7 +142,8 @@ def check_match(
 
 def _check_recording(path: Path, planned: PlannedMatch, outcome: Result) -> tuple[int, list[str], Played | None]:
     try:
-        recorded = open_recording(path).manifest.config
+        opened = open_recording(path)
+        recorded = opened.manifest.config
         is_own = recorded is not None and _compared(recorded) == _compared(planned.config)
         runs_score = (
             is_own and planned.config.task is not None
@@ -151,7 +152,8 @@ def _check_recording(path: Path, planned: PlannedMatch, outcome: Result) -> tupl
         if not is_own:
             faults.append("it is the recording of another match: its configuration is not that of the plan")
         again = None if has_inputs_only(planned.config) else measured(path, planned.identity)
-        chain = again.chain if again is not None else _last_chain(path)
+        last: Applied | Played | None = again or opened.last(APPLIED.key)
+        chain = last.chain if last is not None else ""
     except TouchlineError as error:
         return 0, [str(error)], None
     if chain != outcome.chain:
@@ -193,14 +195,6 @@ def _check_again(planned: PlannedMatch, outcome: Result, note: Path | None) -> t
     if again.chain != outcome.chain:
         faults.append(f"played again, it was another match: its hash chain ends with {again.chain}")
     return 0, faults, again
-
-
-def _last_chain(path: Path) -> str:
-    last = ""
-    for _, message in open_recording(path).decoded(APPLIED.key):
-        assert isinstance(message, Applied)
-        last = message.chain
-    return last
 
 
 def _score(goals: Mapping[Side, int]) -> str:

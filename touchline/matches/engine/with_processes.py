@@ -20,6 +20,8 @@ from runtime.bus.endpoint import FREE_ENDPOINT
 from runtime.process.clock import WallClock
 from schemas.config.match_parts import RecordingConfig
 from schemas.errors import MatchFailedError, TouchlineError
+from schemas.messages.health import Health
+from schemas.topics import HEALTH
 from touchline.launch.check_brains import check_teams
 from touchline.launch.confinement.robot_confinement import team_confinements
 from touchline.launch.match_run import InterruptedMatchError, MatchRun
@@ -32,7 +34,7 @@ from touchline.matches.engine.inputs_only import KEYS, has_inputs_only
 from touchline.matches.engine.measurement import measured
 from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played
 from touchline.matches.engine.planned_match import PlannedMatch
-from touchline.matches.engine.team_faults import fault_of, last_health
+from touchline.matches.engine.team_faults import fault_of
 
 LOG = "match.log"
 """The log of a match, next to the logs of its processes."""
@@ -68,7 +70,6 @@ def _outcome(planned: PlannedMatch, folder: Path) -> Outcome:
     identity, logs = planned.identity, str(folder)
     wanted = planned.recording.resolve() if planned.recording is not None else None
     whole = wanted if wanted and not has_inputs_only(planned.config) else folder / RECORDING
-    remove_parts(whole)  # of a try before
     plan = _plan(planned, folder, whole)
     config, clock = plan.config, WallClock()
     try:
@@ -91,7 +92,7 @@ def _outcome(planned: PlannedMatch, folder: Path) -> Outcome:
         _keep_logs_alone(folder)
     if result.recording.fault:
         return Failed(identity, FailureKind.WORKER, result.recording.fault, (), logs)
-    health = last_health(open_recording(whole))
+    health: Health | None = open_recording(whole).last(HEALTH.key)
     found = fault_of(health, config)
     if found is not None:
         kind, culprits, reason = found
