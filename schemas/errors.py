@@ -1,7 +1,8 @@
 """Errors that a user can fix: each names the fault, the value and the remedy."""
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 
 class TouchlineError(Exception):
@@ -17,6 +18,15 @@ class NoBallError(TouchlineError):
 
 class MatchFailedError(Exception):
     """The input was valid and the match failed; shown as one line, exit status 1."""
+
+
+@contextmanager
+def os_errors(what: object, remedy: str) -> Iterator[None]:
+    """Raise an OSError as a TouchlineError about `what`, or about the error's own file if that is None."""
+    try:
+        yield
+    except OSError as error:
+        raise TouchlineError(f"{what or error.filename}: {error.strerror or error}; {remedy}") from None
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:

@@ -20,7 +20,7 @@ from mcap.writer import MCAP0_MAGIC
 from recordings.container.chunks import BROKEN, MESSAGE, read_chunk, records_in, unpacked
 from recordings.container.manifest import MANIFEST, MANIFEST_COPY
 from recordings.container.sealed_metadata import is_sealed
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, os_errors
 
 DAMAGED = "damaged inside ({}); use another copy of it, or leave out the damaged parts with `touchline recover`"
 END_NS = 1 << 64
@@ -147,13 +147,10 @@ def open_mcap_file(path: Path) -> McapFile:
     Raises:
         TouchlineError: the file cannot be read, or is not MCAP.
     """
-    try:
-        with path.open("rb") as file:
-            if not MCAP0_MAGIC.startswith(file.read(len(MCAP0_MAGIC))):
-                raise TouchlineError(f"{path}: not a recording; give an *.mcap file")
-            return _from_summary(path, file) or _from_records(path, file)
-    except OSError as error:
-        raise TouchlineError(f"{path}: {error.strerror}; give the path of a recording") from None
+    with os_errors(path, "give the path of a recording"), path.open("rb") as file:
+        if not MCAP0_MAGIC.startswith(file.read(len(MCAP0_MAGIC))):
+            raise TouchlineError(f"{path}: not a recording; give an *.mcap file")
+        return _from_summary(path, file) or _from_records(path, file)
 
 
 def _from_summary(path: Path, file: IO[bytes]) -> McapFile | None:

@@ -9,7 +9,7 @@ from typing import Self
 
 from recordings.reading.recording import Recording
 from runtime.process.whole_file import written_whole
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, os_errors
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 
@@ -46,9 +46,7 @@ def atomic_output(out: Path) -> Iterator[Path]:
     """
     if out.exists():
         raise TouchlineError(f"--out {out}: already exists; remove it, or give another name")
-    try:
+    with os_errors(f"--out {out}", "give a path that can be written"):
         out.parent.mkdir(parents=True, exist_ok=True)
         with written_whole(out) as draft:
             yield draft
-    except OSError as error:
-        raise TouchlineError(f"--out {out}: {error.strerror or error}; give a path that can be written") from None

@@ -21,7 +21,7 @@ from recordings.container.parts import locked
 from recordings.container.sealed_metadata import from_metadata, sealed, to_metadata
 from recordings.editing.intact_records import Findings, chunks_are_intact, intact_records, profile_of
 from runtime.process.whole_file import written_whole
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, os_errors
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,14 +47,11 @@ def recover(path: Path) -> RecoverySummary:
     Raises:
         TouchlineError: the file cannot be read or written, is being recorded, is not MCAP, or has no intact record.
     """
-    try:
-        with locked(path), path.open("rb") as file:
-            if file.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
-                raise TouchlineError(f"{path}: not a recording; give an *.mcap file")
-            with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
-                return _recover(path, content)
-    except OSError as error:
-        raise TouchlineError(f"{path}: {error.strerror}; give the path of a recording that can be written") from None
+    with os_errors(path, "give the path of a recording that can be written"), locked(path), path.open("rb") as file:
+        if file.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
+            raise TouchlineError(f"{path}: not a recording; give an *.mcap file")
+        with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
+            return _recover(path, content)
 
 
 def _recover(path: Path, content: mmap.mmap) -> RecoverySummary:

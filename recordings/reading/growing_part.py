@@ -18,7 +18,7 @@ from recordings.container.chunks import BROKEN, MESSAGE, RECORD_HEADER, is_known
 from recordings.container.manifest import MANIFEST, RESULT, EndReason
 from recordings.container.mcap_file import DAMAGED, stream_of
 from recordings.reading.recording import RecordedMessage
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, os_errors
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 
@@ -53,10 +53,8 @@ class GrowingPart:
             TouchlineError: the file cannot be read, or is not MCAP.
         """
         self._path, self._keep = path, keep
-        try:
+        with os_errors(path, "give the path of a recording"):
             self._file: BinaryIO = path.open("rb")
-        except OSError as error:
-            raise TouchlineError(f"{path}: {error.strerror}; give the path of a recording") from None
         self.close = weakref.finalize(self, self._file.close)
         if not MCAP0_MAGIC.startswith(self._file.read(len(MCAP0_MAGIC))):
             self.close()

@@ -17,7 +17,7 @@ from runtime.access.certificates import Certificate
 from runtime.access.private_file import check_private
 from runtime.process.whole_file import written_whole
 from schemas.config.config_model import ConfigModel
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, os_errors
 
 _PASSWORD_BYTES = 32
 HOST_FILE = "host.json"
@@ -123,11 +123,9 @@ _REMEDY = "`touchline credentials new` writes such files"
 
 def _read(model: type[C], path: Path, what: str) -> C:
     try:
-        with path.open("rb") as file:
+        with os_errors(f"--credentials {path}", _REMEDY), path.open("rb") as file:
             check_private("--credentials", path, file)
             content = json.loads(file.read())
-    except OSError as error:
-        raise TouchlineError(f"--credentials {path}: {error.strerror}; {_REMEDY}") from None
     except ValueError:
         raise TouchlineError(f"--credentials {path}: not JSON; {_REMEDY}") from None
     if not isinstance(content, dict) or ("passwords" in content) != (model is HostCredentials):

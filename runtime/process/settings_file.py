@@ -11,7 +11,7 @@ from runtime.process.process_log import Level, log_line
 from runtime.process.whole_file import written_whole
 from schemas.config.settings import Settings
 from schemas.config.toml_file import validate_tables
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, os_errors
 
 S = TypeVar("S", bound=Settings)
 
@@ -39,10 +39,8 @@ def read_settings(model: type[S], source: str) -> S:
     """
     name = "standard input" if source == STANDARD_INPUT else source
     try:
-        text = sys.stdin.read() if source == STANDARD_INPUT else Path(source).read_text("utf-8")
-        content = json.loads(text)
-    except OSError as error:
-        raise TouchlineError(f"--settings {source}: {error.strerror}; give the path of a settings file") from None
+        with os_errors(f"--settings {source}", "give the path of a settings file"):
+            content = json.loads(sys.stdin.read() if source == STANDARD_INPUT else Path(source).read_text("utf-8"))
     except ValueError as error:
         raise TouchlineError(f"{name}: not JSON: {error}") from None
     if not isinstance(content, dict):

@@ -15,7 +15,7 @@ from typing import Any
 
 from schemas.config.quantity import merge_tables, read_section
 from schemas.config.toml_file import UNREADABLE, from_folder
-from schemas.errors import TouchlineError, did_you_mean
+from schemas.errors import TouchlineError, did_you_mean, os_errors
 
 VERSION_KEY = "version"
 PROFILE_KEY = "profile"
@@ -69,11 +69,8 @@ class NumberFiles:
         if not name.endswith(".toml"):
             known = did_you_mean(name, self.shipped)
             raise TouchlineError(f'{self.kind} is "{name}"; {known} Or give a path that ends in .toml')
-        try:
+        with os_errors(f'{self.kind} is "{name}"', f"give one of {', '.join(self.shipped)}"):
             return Path(name).read_text("utf-8")
-        except OSError as error:
-            given = ", ".join(self.shipped)
-            raise TouchlineError(f'{self.kind} is "{name}": {error.strerror}; give one of {given}') from None
 
 
 @lru_cache(maxsize=32)

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, os_errors
 from schemas.wire.faults import Fault
 from schemas.wire.model_faults import fault_of
 
@@ -41,9 +41,8 @@ def read_tables(path: Path, kind: str) -> dict[str, Any]:
     if path.exists() and not (path.is_file() or path.is_dir()):
         raise TouchlineError(f"{path}: a pipe or a device; give the path of {kind}")
     try:
-        return tomllib.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise TouchlineError(f"{path}: {error.strerror}; give the path of {kind}") from None
+        with os_errors(path, f"give the path of {kind}"):
+            return tomllib.loads(path.read_text("utf-8"))
     except UNREADABLE as error:
         raise TouchlineError(f"{path}: not TOML: {error}") from None
 

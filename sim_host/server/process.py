@@ -17,7 +17,7 @@ from runtime.bus.zenoh.router_limits import router_limits
 from runtime.process.clock import WallClock
 from runtime.process.process_log import configure_log
 from runtime.process.scheduling import use_batch_scheduling
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, os_errors
 from sim_host.missing_engine import missing_engine_text
 from sim_host.server.settings import HostSettings
 
@@ -86,11 +86,9 @@ def _leave_outcome(settings: HostSettings, messages: Sequence[ReceivedMessage]) 
 def _announce(settings: HostSettings, endpoint: str, announcements: ExitStack) -> None:
     """Announce the host to its launcher, and to clients of this user."""
     announcement = Announcement.of(settings.config.name, endpoint, settings.credentials)
-    try:
+    with os_errors(settings.announcement, "the host announces itself there"):
         if settings.announcement is not None:
             announcements.enter_context(announced(announcement, settings.announcement))
-    except OSError as error:
-        raise TouchlineError(f"{settings.announcement}: {error.strerror}; the host announces itself there") from None
     try:
         announcements.enter_context(announced_to_user(announcement))
     except OSError as error:

@@ -8,7 +8,7 @@ from pathlib import Path
 from runtime.bus.endpoint import is_loopback
 from runtime.process.clock import Clock
 from schemas.config.match_config import MatchConfig
-from schemas.errors import TouchlineError
+from schemas.errors import os_errors
 from touchline.launch.own_address import names_for_others
 from touchline.launch.processes.programs import CREDENTIALS, MatchPlan
 
@@ -30,17 +30,14 @@ def prepare_run(
         TouchlineError: the folder cannot be made or written.
     """
     stem = f"{config.name}-{_moment(clock)}-seed{config.seed}"
-    try:
+    with os_errors(None, f"a match writes its logs under ./{RUNS}"):
         folder = _new_folder(stem)
         out = (recording or folder / RECORDING) if recorded else None
         refusal = _why_not_writable(out) if out is not None else ""
         if refusal:
             refusal = f"--record {out}: {refusal}. The match is played, its recording goes to {folder / RECORDING}"
             out = folder / RECORDING
-        plan = MatchPlan(config, listen, folder, out, refusal, launch_token=secrets.token_hex(16))
-    except OSError as error:
-        raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its logs under ./{RUNS}") from None
-    return plan
+        return MatchPlan(config, listen, folder, out, refusal, launch_token=secrets.token_hex(16))
 
 
 def new_run_folder(name: str, clock: Clock) -> Path:
@@ -49,10 +46,8 @@ def new_run_folder(name: str, clock: Clock) -> Path:
     Raises:
         TouchlineError: the folder cannot be made.
     """
-    try:
+    with os_errors(None, f"logs are written under ./{RUNS}"):
         return _new_folder(f"{name}-{_moment(clock)}")
-    except OSError as error:
-        raise TouchlineError(f"{error.filename}: {error.strerror}; logs are written under ./{RUNS}") from None
 
 
 def _moment(clock: Clock) -> str:
@@ -70,10 +65,8 @@ def prepare_credentials(plan: MatchPlan, *, tls: bool) -> MatchPlan:
 
     folder = plan.folder / CREDENTIALS
     names = () if plan.listen is None or is_loopback(plan.listen) else names_for_others(plan.listen)
-    try:
+    with os_errors(None, "a match writes its credentials there"):
         write_credentials(folder, new_credentials(plan.config.name, make_certificate(names) if tls else None))
-    except OSError as error:
-        raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its credentials there") from None
     return with_credentials(plan, folder)
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, is_zipfile
 
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, os_errors
 
 _MAX_BYTES = 2**29
 """Most bytes of all files of a log. Chosen here: four times what the 40 minutes of a final of 2016 have."""
@@ -76,7 +76,7 @@ def _contents(paths: list[Path]) -> Iterator[tuple[str, bytes]]:
     if sum(file.stat().st_size for file in plain if file.exists()) > _MAX_BYTES:
         raise TouchlineError(f"{paths[0]}: more than {_MAX_BYTES >> 20} MiB, too many for a log; give the files of one")
     for path in paths:
-        try:
+        with os_errors(path, "give the path of a log"):
             if path.is_dir():
                 yield from ((str(file), file.read_bytes()) for file in sorted(path.glob("*.msl")))
             elif is_zipfile(path):
@@ -89,8 +89,6 @@ def _contents(paths: list[Path]) -> Iterator[tuple[str, bytes]]:
                         "use another copy, or give the files that can be unpacked from it"
                     )
                 yield str(path), content
-        except OSError as error:
-            raise TouchlineError(f"{path}: {error.strerror or error}; give the path of a log") from None
 
 
 def _zipped(path: Path) -> Iterator[tuple[str, bytes]]:

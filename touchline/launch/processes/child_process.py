@@ -16,7 +16,7 @@ from runtime.process.leash import OwnConfinement, leashed
 from runtime.process.process_log import message_of
 from runtime.process.settings_file import STANDARD_INPUT, write_settings
 from runtime.process.timing import POLL_S
-from schemas.errors import TouchlineError
+from schemas.errors import os_errors
 from touchline.launch.confinement.bubblewrap import run_as
 from touchline.launch.processes.fork_server import ROBOTS
 from touchline.launch.processes.process_table import Process
@@ -123,13 +123,11 @@ def _write_files_of(process: Process) -> None:
     Raises:
         TouchlineError: that cannot be written.
     """
-    try:
+    with os_errors(None, f"{process.name} needs it"):
         if process.settings is not None and process.settings_file is not None:
             write_settings(process.settings, process.settings_file)
         if process.confinement is not None:
             process.confinement.make_folder()
-    except OSError as error:
-        raise TouchlineError(f"{error.filename}: {error.strerror}; {process.name} needs it") from None
 
 
 def _environment_of(process: Process) -> dict[str, str]:

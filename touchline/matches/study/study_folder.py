@@ -11,7 +11,7 @@ import pandas as pd
 from pydantic import ValidationError
 
 from schemas.config.match_config import MatchConfig
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, os_errors
 from touchline.matches.study.cells import Cell
 from touchline.matches.study.digests import as_text, file_digest
 from touchline.matches.study.study_config import Study
@@ -97,9 +97,8 @@ def read_study(folder: Path) -> StoredStudy:
     plan = read_plan(folder)
     digests = _json(folder / DIGESTS)
     try:
-        table = pd.read_csv(folder / CSV)
-    except OSError as error:
-        raise TouchlineError(f"{folder / CSV}: {error.strerror}; run the study to its end, which writes it") from None
+        with os_errors(folder / CSV, "run the study to its end, which writes it"):
+            table = pd.read_csv(folder / CSV)
     except ValueError as error:
         raise TouchlineError(f"{folder / CSV}: no table ({error}); run the study again, which writes it") from None
     return StoredStudy(folder, plan, digests["seeds"], table, digests)
@@ -107,9 +106,8 @@ def read_study(folder: Path) -> StoredStudy:
 
 def _json(path: Path) -> dict[str, Any]:
     try:
-        content: dict[str, Any] = json.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise TouchlineError(f"{path}: {error.strerror}; give the folder of a study that was played") from None
+        with os_errors(path, "give the folder of a study that was played"):
+            content: dict[str, Any] = json.loads(path.read_text("utf-8"))
     except ValueError as error:
         raise TouchlineError(f"{path}: not JSON: {error}") from None
     return content

@@ -18,7 +18,7 @@ from recordings.soccer.stats.match_statistics import figures_of_recording
 from recordings.soccer.stats.page.content import content_of
 from recordings.soccer.stats.page.game_history import GameHistory
 from recordings.soccer.stats.tracks import Tracks
-from schemas.errors import TouchlineError
+from schemas.errors import os_errors
 
 SCRIPTS = (
     "shared/elements.js",
@@ -72,11 +72,9 @@ def write_page(path: Path, text: str) -> None:
     Raises:
         TouchlineError: the file cannot be written.
     """
-    try:
+    with os_errors(f"--html {path}", "give a path that can be written"):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, "utf-8")
-    except OSError as error:
-        raise TouchlineError(f"--html {path}: {error.strerror}; give a path that can be written") from None
 
 
 def _text(name: str) -> str:
