@@ -45,10 +45,14 @@ def host(medium: SharedState):
     host.close()
 
 
+@pytest.fixture
+def gateway(medium: SharedState, host: list[RefereeAction]) -> HostClient:
+    return HostClient(seat(medium))
+
+
 def test_an_action_reaches_the_referee_and_its_answer_comes_back(
-    medium: SharedState, host: list[RefereeAction]
+    gateway: HostClient, host: list[RefereeAction]
 ) -> None:
-    gateway = HostClient(seat(medium))
     assert gateway.act(RefereeAction(action=ActionName.STOP)).accepted
     refused = gateway.act(RefereeAction(action=ActionName.CORNER, side=Side.MAGENTA))
     assert (refused.accepted, refused.reason) == (False, "play is running")
@@ -76,12 +80,9 @@ def test_an_action_without_a_host_names_the_match_and_what_to_do(medium: SharedS
         HostClient(seat(medium)).act(RefereeAction(action=ActionName.STOP))
 
 
-def test_orders_go_to_their_side_alone_and_each_has_a_higher_number(
-    medium: SharedState, host: list[RefereeAction]
-) -> None:
+def test_orders_go_to_their_side_alone_and_each_has_a_higher_number(gateway: HostClient, medium: SharedState) -> None:
     listener = seat(medium)
     cyan, magenta = listener.subscribe(ORDER, side="cyan"), listener.subscribe(ORDER, side="magenta")
-    gateway = HostClient(seat(medium))
     first = gateway.order(Side.CYAN, mode=CoachMode.HOLD, max_speed=1.5)
     second = gateway.order(Side.CYAN)
     received = [cyan.receive(), cyan.receive()]
@@ -103,24 +104,19 @@ def test_an_order_of_a_later_process_counts_more_than_one_of_an_earlier_process(
     assert sequences[0] < sequences[1]
 
 
-def test_an_order_about_a_robot_of_the_other_side_is_refused_with_a_hint(
-    medium: SharedState, host: list[RefereeAction]
-) -> None:
+def test_an_order_about_a_robot_of_the_other_side_is_refused_with_a_hint(gateway: HostClient) -> None:
     with pytest.raises(TouchlineError, match='robot_a is "cyan7", no robot of cyan; did you mean "cyan'):
-        HostClient(seat(medium)).order(Side.CYAN, robot_a="cyan7")
+        gateway.order(Side.CYAN, robot_a="cyan7")
 
 
-def test_an_order_that_contradicts_itself_is_refused_with_the_reason(
-    medium: SharedState, host: list[RefereeAction]
-) -> None:
+def test_an_order_that_contradicts_itself_is_refused_with_the_reason(gateway: HostClient) -> None:
     with pytest.raises(TouchlineError, match="the order cannot be given: the test move needs robot_a and point_a"):
-        HostClient(seat(medium)).order(Side.CYAN, mode=CoachMode.TEST, test="move")
+        gateway.order(Side.CYAN, mode=CoachMode.TEST, test="move")
 
 
 def test_an_order_is_numbered_after_the_active_one_whatever_the_clock_has(
-    medium: SharedState, host: list[RefereeAction]
+    gateway: HostClient, medium: SharedState
 ) -> None:
-    gateway = HostClient(seat(medium))
     gateway.orders.update()
     ahead = CoachOrder(sequence=4_000_000_000_000)
     standing = ActiveOrder(tick=1, time=0.02, order=ahead, acknowledged={"cyan1": True})
@@ -128,10 +124,8 @@ def test_an_order_is_numbered_after_the_active_one_whatever_the_clock_has(
     assert gateway.order(Side.CYAN).sequence == ahead.sequence + 1
 
 
-def test_a_new_coach_goes_on_from_the_number_of_the_active_order_however_large(
-    medium: SharedState, host: list[RefereeAction]
-) -> None:
-    first = HostClient(seat(medium)).order(Side.MAGENTA)
+def test_a_new_coach_goes_on_from_the_number_of_the_active_order_however_large(gateway: HostClient) -> None:
+    first = gateway.order(Side.MAGENTA)
     assert first.sequence == MICROSECONDS + 1
     assert first.refusal_after(CoachOrder(sequence=MICROSECONDS)) == ""
 

@@ -21,6 +21,7 @@ from support.raw_client import RawClient, deflated, frame
 from support.visitor import Visitor
 
 Visit = Callable[..., Visitor]
+GatewayOf = Callable[..., Gateway]
 PING, CONTINUED = 9, 0
 
 
@@ -32,9 +33,7 @@ def test_a_forged_token_is_unknown(visit: Visit, host: FakeHost) -> None:
     assert [question for question in host.asked if hasattr(question, "source")] == []
 
 
-def test_a_page_comes_in_from_an_allowed_origin_and_from_no_other(
-    host: FakeHost, gateway_of: Callable[..., Gateway]
-) -> None:
+def test_a_page_comes_in_from_an_allowed_origin_and_from_no_other(host: FakeHost, gateway_of: GatewayOf) -> None:
     gateway = gateway_of(allow_origin=["https://cup.example.org"])
     for claimed in ("http://evil.example", ""):
         with pytest.raises(InvalidStatus) as refused:
@@ -83,9 +82,7 @@ def test_garbage_is_answered_in_one_line_and_the_page_goes_on(visit: Visit, host
     assert [question for question in host.asked if hasattr(question, "source")] == []
 
 
-def test_refusals_are_named_once_counted_and_logged_at_the_end(
-    host: FakeHost, gateway_of: Callable[..., Gateway]
-) -> None:
+def test_refusals_are_named_once_counted_and_logged_at_the_end(host: FakeHost, gateway_of: GatewayOf) -> None:
     gateway = gateway_of()
     page = Visitor(gateway.origin)
     for rubbish in ("{", "[]", b"x"):
@@ -126,7 +123,7 @@ BROKEN: dict[str, Callable[[], bytes]] = {
 
 @pytest.mark.parametrize("broken", BROKEN)
 def test_what_breaks_the_protocol_ends_its_own_connection_alone(
-    visit: Visit, gateway_of: Callable[..., Gateway], broken: str
+    visit: Visit, gateway_of: GatewayOf, broken: str
 ) -> None:
     gateway, other = gateway_of(), visit()
     client = RawClient(gateway.port)
@@ -146,7 +143,7 @@ def test_a_flood_holds_up_no_command_of_another_page(visit: Visit) -> None:
 
 
 def test_a_page_that_does_not_read_delays_no_other_and_is_dropped(
-    host: FakeHost, gateway_of: Callable[..., Gateway], monkeypatch: pytest.MonkeyPatch
+    host: FakeHost, gateway_of: GatewayOf, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(listener, "UNREAD_S", 0.5)
     gateway = gateway_of()
@@ -164,7 +161,7 @@ def test_a_page_that_does_not_read_delays_no_other_and_is_dropped(
 
 
 def test_a_deaf_page_that_goes_on_asking_is_dropped_before_it_fills_the_memory(
-    host: FakeHost, gateway_of: Callable[..., Gateway], monkeypatch: pytest.MonkeyPatch
+    host: FakeHost, gateway_of: GatewayOf, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(send_queue, "MOST", 500)
     monkeypatch.setattr(listener, "UNREAD_S", 2.0)
@@ -179,7 +176,7 @@ def test_a_deaf_page_that_goes_on_asking_is_dropped_before_it_fills_the_memory(
 
 
 def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
-    host: FakeHost, gateway_of: Callable[..., Gateway], monkeypatch: pytest.MonkeyPatch
+    host: FakeHost, gateway_of: GatewayOf, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(listener, "UNREAD_S", 600.0)  # however long the other page takes
     gateway = gateway_of()
@@ -206,7 +203,7 @@ def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
 
 
 def test_one_page_too_many_gets_the_reason_and_one_with_a_token_is_admitted(
-    host: FakeHost, gateway_of: Callable[..., Gateway]
+    host: FakeHost, gateway_of: GatewayOf
 ) -> None:
     gateway = gateway_of(pages=1)
     first, second, coach = (Visitor(gateway.origin) for _ in range(3))
@@ -226,7 +223,7 @@ def test_one_page_too_many_gets_the_reason_and_one_with_a_token_is_admitted(
 
 
 def test_a_server_with_very_many_connections_asks_to_come_again(
-    gateway_of: Callable[..., Gateway], monkeypatch: pytest.MonkeyPatch
+    gateway_of: GatewayOf, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(uvicorn_server, "_LOADING", 1)
     gateway = gateway_of(pages=1)

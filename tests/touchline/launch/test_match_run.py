@@ -3,6 +3,8 @@
 import io
 import signal
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -83,24 +85,24 @@ class Stage:
     """One match on a screen that can be read afterwards."""
 
     def __init__(
-        self, folder: Path, monkeypatch: pytest.MonkeyPatch, host: str, agent: str, recorder: str, **overrides: object
+        self,
+        folder: Path,
+        monkeypatch: pytest.MonkeyPatch,
+        host: str,
+        agent: str = RESTS,
+        recorder: str = RECORDS,
+        **overrides: object,
     ) -> None:
-        recording = folder / "match.mcap" if recorder else None
+        recording = folder / "match.mcap"
         self.plan = MatchPlan(load_match(None, overrides), None, folder, recording)
         self.words = io.StringIO()
-        programs = {
-            "host": (ProcessKind.HOST, host, (str(self.plan.announcement), str(folder / "seen"))),
-            "cyan1": (ProcessKind.AGENT, agent, ()),
-            "recorder": (ProcessKind.RECORDER, recorder, (str(recording),)),
-        }
-        host, *clients = [
-            Process(
-                name, kind, (sys.executable, "-c", code, *words), {}, restarts=3 if kind is ProcessKind.AGENT else 0
-            )
-            for name, (kind, code, words) in programs.items()
-            if code
+        python = (sys.executable, "-c")
+        hosts = (*python, host, str(self.plan.announcement), str(folder / "seen"))
+        clients = [
+            Process("cyan1", ProcessKind.AGENT, (*python, agent), {}, restarts=3),
+            Process("recorder", ProcessKind.RECORDER, (*python, recorder, str(recording)), {}),
         ]
-        monkeypatch.setattr(match_run, "host_process", lambda plan: host)
+        monkeypatch.setattr(match_run, "host_process", lambda plan: Process("host", ProcessKind.HOST, hosts, {}))
         monkeypatch.setattr(match_run, "client_processes", lambda plan: clients)
         monkeypatch.setattr(recording_outcome, "losses_of", lambda *_: {"world": 2})
 
@@ -110,21 +112,16 @@ class Stage:
         return MatchRun(self.plan, screen, clock).play()
 
 
-def stage(
-    folder: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    host: str,
-    agent: str = RESTS,
-    recorder: str = RECORDS,
-    **overrides: object,
-) -> Stage:
-    return Stage(folder, monkeypatch, host, agent, recorder, **overrides)
+Staged = Callable[..., Stage]
 
 
-def test_a_match_that_reaches_full_time_has_score_events_and_recording(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    match = stage(tmp_path, monkeypatch, FULL_TIME)
+@pytest.fixture
+def stage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Staged:
+    return partial(Stage, tmp_path, monkeypatch)
+
+
+def test_a_match_that_reaches_full_time_has_score_events_and_recording(stage: Staged) -> None:
+    match = stage(FULL_TIME)
     result = match.play()
     assert (result.state.score.cyan, result.state.score.magenta) == (1, 0)
     assert (result.ticks, result.duration_s) == (21, 0.42)
@@ -135,42 +132,36 @@ def test_a_match_that_reaches_full_time_has_score_events_and_recording(
     assert " 0:00.4  goal: goal by cyan3" in match.words.getvalue()
 
 
-def test_a_host_learns_that_its_recorder_will_not_come_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    match = stage(tmp_path, monkeypatch, WAITS_FOR_ITS_RECORDER, recorder="import sys; sys.exit('disk full')")
+def test_a_host_learns_that_its_recorder_will_not_come_back(stage: Staged, tmp_path: Path) -> None:
+    match = stage(WAITS_FOR_ITS_RECORDER, recorder="import sys; sys.exit('disk full')")
     assert "disk full" in match.play().recording.fault
     assert "recorder ended with status 1; not started again" in match.words.getvalue()
     assert (tmp_path / "host.log").read_text().splitlines()[-1] == "recorder leaves"
 
 
-def test_a_match_ends_when_a_side_has_no_robot_left_with_the_reason(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    match = stage(tmp_path, monkeypatch, CUT_SHORT, agent=CRASHES, **{"teams.cyan.size": 1, "teams.cyan.name": "Lions"})
+def test_a_match_ends_when_a_side_has_no_robot_left_with_the_reason(stage: Staged) -> None:
+    match = stage(CUT_SHORT, agent=CRASHES, **{"teams.cyan.size": 1, "teams.cyan.name": "Lions"})
     reason = r"^match ended .*: no robot of Lions \(cyan\) is left; cyan1: brain raised; logs are in "
     with pytest.raises(MatchFailedError, match=reason):
         match.play(awaited="what is never shown")
     assert "cyan1 ended with status 1; not started again" in match.words.getvalue()
 
 
-def test_the_error_of_a_host_with_wrong_input_is_shown_unchanged(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_error_of_a_host_with_wrong_input_is_shown_unchanged(stage: Staged) -> None:
     with pytest.raises(TouchlineError, match=r"^profile is odd; mend it$"):
-        stage(tmp_path, monkeypatch, WRONG).play()
+        stage(WRONG).play()
 
 
-def test_a_recorder_that_waits_for_a_host_that_could_not_start_is_ended(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    match = stage(tmp_path, monkeypatch, WRONG, recorder=RESTS)
+def test_a_recorder_that_waits_for_a_host_that_could_not_start_is_ended(stage: Staged) -> None:
+    match = stage(WRONG, recorder=RESTS)
     began = WallClock().now()
     with pytest.raises(TouchlineError):
         match.play()
     assert WallClock().now() - began < 20.0  # not the half minute that a recorder has after a match
 
 
-def test_a_host_that_dies_ends_the_match_with_its_last_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    match = stage(tmp_path, monkeypatch, DIES)
+def test_a_host_that_dies_ends_the_match_with_its_last_words(stage: Staged) -> None:
+    match = stage(DIES)
     with pytest.raises(
         MatchFailedError, match=r"match abandoned: the host ended with status 1; its log is .*host\.log"
     ):
@@ -178,15 +169,13 @@ def test_a_host_that_dies_ends_the_match_with_its_last_words(tmp_path: Path, mon
     assert "  host: the roof came down" in match.words.getvalue()
 
 
-def test_a_host_that_was_ended_before_full_time_leaves_no_result(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_host_that_was_ended_before_full_time_leaves_no_result(stage: Staged) -> None:
     with pytest.raises(MatchFailedError, match="the host was ended before full time"):
-        stage(tmp_path, monkeypatch, CUT_SHORT).play()
+        stage(CUT_SHORT).play()
 
 
 def test_the_end_of_a_match_that_was_missed_in_a_stall_is_taken_from_what_the_host_left(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    stage: Staged, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     goal = GameEvent(tick=20, time=0.4, clock=0.4, kind=EventKind.GOAL, rule="goal", text="goal by cyan3")
     end = GameEvent(tick=60, time=1.2, clock=1.2, kind=EventKind.FULL_TIME, rule="clock", text="full time")
@@ -195,7 +184,7 @@ def test_the_end_of_a_match_that_was_missed_in_a_stall_is_taken_from_what_the_ho
         ReceivedMessage(topic, topic.key, message.encode(), Stamp(number, number, 0))
         for number, (topic, message) in enumerate([(EVENT, goal), (EVENT, end), (STATE, over)])
     ]
-    match = stage(tmp_path, monkeypatch, CUT_SHORT)
+    match = stage(CUT_SHORT)
     monkeypatch.setattr(match_run, "read_outcome", lambda path: published)
     result = match.play()
     assert (result.state.score.cyan, result.ticks, result.duration_s) == (1, 60, 1.2)
@@ -204,9 +193,9 @@ def test_the_end_of_a_match_that_was_missed_in_a_stall_is_taken_from_what_the_ho
     assert "full time" in match.words.getvalue()
 
 
-def test_ctrl_c_ends_all_processes_and_is_passed_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ctrl_c_ends_all_processes_and_is_passed_on(stage: Staged) -> None:
     before = signal.getsignal(signal.SIGINT)
     with pytest.raises(InterruptedMatchError) as stopped:
-        stage(tmp_path, monkeypatch, INTERRUPTED).play()
+        stage(INTERRUPTED).play()
     assert stopped.value.number == signal.SIGINT
     assert signal.getsignal(signal.SIGINT) is before

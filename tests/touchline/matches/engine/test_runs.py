@@ -30,6 +30,7 @@ from touchline.matches.engine.store import RunStore
 from touchline.matches.engine.verify import Depth, check_match, sampled, verify_run
 
 MatchOf = Callable[..., MatchConfig]
+Matches = Callable[..., tuple[PlannedMatch, ...]]
 
 
 @dataclass
@@ -44,16 +45,18 @@ class Log:
         return planned.label
 
 
-def matches(match_of: MatchOf, folder: Path, number: int, recordings: Path | None = None) -> list[PlannedMatch]:
-    return [
-        PlannedMatch(
-            match_of(seed=seed),
-            brain_folder=folder,
-            recording=recordings / f"{seed}.mcap" if recordings is not None else None,
-            label=f"seed {seed}",
+@pytest.fixture(scope="module")
+def matches(match_of: MatchOf, folder: Path) -> Matches:
+    """As many matches of seeds from 1."""
+
+    def planned(number: int, recordings: Path | None = None) -> tuple[PlannedMatch, ...]:
+        files = {seed: recordings / f"{seed}.mcap" if recordings else None for seed in range(1, number + 1)}
+        return tuple(
+            PlannedMatch(match_of(seed=seed), brain_folder=folder, recording=file, label=f"seed {seed}")
+            for seed, file in files.items()
         )
-        for seed in range(1, number + 1)
-    ]
+
+    return planned
 
 
 def swapped(sides: Mapping[Side, Any]) -> dict[Side, Any]:
@@ -64,8 +67,8 @@ def bytes_of(outcomes: Mapping[str, Outcome]) -> dict[str, bytes]:
     return {identity: to_json(outcome) for identity, outcome in sorted(outcomes.items())}
 
 
-def test_all_executors_give_the_same_bytes(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
-    plan = ListPlan(tuple(matches(match_of, folder, 2)))
+def test_all_executors_give_the_same_bytes(matches: Matches, tmp_path: Path) -> None:
+    plan = ListPlan(matches(2))
     results = []
     executors: list[tuple[Executor, bool]] = [
         (ThreadPoolExecutor(1), False),
@@ -80,8 +83,8 @@ def test_all_executors_give_the_same_bytes(match_of: MatchOf, folder: Path, tmp_
     assert len(results[0]) == 2
 
 
-def test_recordings_of_other_machines_come_back(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
-    plan = ListPlan(tuple(matches(match_of, folder, 1, tmp_path / "recordings")))
+def test_recordings_of_other_machines_come_back(matches: Matches, tmp_path: Path) -> None:
+    plan = ListPlan(matches(1, tmp_path / "recordings"))
     with ThreadPoolExecutor(1) as executor, closing(RunStore(tmp_path)) as store:
         (outcome,) = run_plan(plan, executor, store, Log(), is_remote=True).values()
     assert isinstance(outcome, Played)
@@ -101,8 +104,8 @@ class Final:
         return [one for one in order if one.identity not in outcomes]
 
 
-def test_a_plan_may_depend_on_outcomes(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
-    first, second = matches(match_of, folder, 2)
+def test_a_plan_may_depend_on_outcomes(matches: Matches, tmp_path: Path) -> None:
+    first, second = matches(2)
     log = Log()
     with ThreadPoolExecutor(1) as executor:
         run_plan(Final(first, second), executor, None, log)
@@ -134,8 +137,8 @@ class Interrupted(Executor):
         os.kill(os.getpid(), signal.SIGTERM)
 
 
-def test_an_interrupt_at_any_moment_leaves_no_match_that_cannot_be_ended(match_of: MatchOf, folder: Path) -> None:
-    (one,) = matches(match_of, folder, 1)
+def test_an_interrupt_at_any_moment_leaves_no_match_that_cannot_be_ended(matches: Matches) -> None:
+    (one,) = matches(1)
     plan = ListPlan(tuple(replace(one, code={Side.CYAN: f"{number}"}) for number in range(1500)))
     before = signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
@@ -150,8 +153,8 @@ def test_an_interrupt_at_any_moment_leaves_no_match_that_cannot_be_ended(match_o
         signal.signal(signal.SIGTERM, before)
 
 
-def test_a_finished_match_is_not_played_again(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
-    few, all_of_them = (ListPlan(tuple(matches(match_of, folder, number))) for number in (2, 4))
+def test_a_finished_match_is_not_played_again(matches: Matches, tmp_path: Path) -> None:
+    few, all_of_them = (ListPlan(matches(number)) for number in (2, 4))
     log = Log()
     with ThreadPoolExecutor(1) as executor:
         with closing(RunStore(tmp_path)) as store:
@@ -170,6 +173,7 @@ def test_a_finished_match_is_not_played_again(match_of: MatchOf, folder: Path, t
     ],
 )
 def test_a_match_whose_process_ends_costs_itself_alone(
+    matches: Matches,
     match_of: MatchOf,
     folder: Path,
     tmp_path: Path,
@@ -180,17 +184,15 @@ def test_a_match_whose_process_ends_costs_itself_alone(
 ) -> None:
     lost = PlannedMatch(match_of(magenta=brain), brain_folder=folder, label="lost")
     with FreshProcesses(2) as executor:
-        outcomes = run_plan(ListPlan((lost, *matches(match_of, folder, 2))), executor, None, Log())
+        outcomes = run_plan(ListPlan((lost, *matches(2))), executor, None, Log())
     assert [isinstance(one, Played) for one in outcomes.values()].count(True) == 2
     failed = outcomes[lost.identity]
     assert isinstance(failed, Failed)
     assert (failed.kind, failed.culprits, failed.reason) == (kind, culprits, reason)
 
 
-def test_a_match_whose_worker_was_lost_is_played_when_the_run_goes_on(
-    match_of: MatchOf, folder: Path, tmp_path: Path
-) -> None:
-    one, other = matches(match_of, folder, 2)
+def test_a_match_whose_worker_was_lost_is_played_when_the_run_goes_on(matches: Matches, tmp_path: Path) -> None:
+    one, other = matches(2)
     with closing(RunStore(tmp_path)) as store:
         store.add(Failed(one.identity, FailureKind.WORKER, "no disk"))
         store.add(Failed(other.identity, FailureKind.CRASHED, "no idea", (Side.CYAN,)))
@@ -203,7 +205,7 @@ def test_a_match_whose_worker_was_lost_is_played_when_the_run_goes_on(
 
 
 def test_teams_whose_files_have_the_same_name_do_not_meet(
-    match_of: MatchOf, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    matches: Matches, match_of: MatchOf, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(sys, "path", [one for one in sys.path if Path(one) != folder])  # a match was played here before
     text = (folder / "planned_brains.py").read_text()
@@ -213,7 +215,7 @@ def test_teams_whose_files_have_the_same_name_do_not_meet(
         for home in (folder, tmp_path)
     )
     with FreshProcesses(1) as executor:
-        outcomes = run_plan(ListPlan((forward, backward, *matches(match_of, folder, 1))), executor, None, Log())
+        outcomes = run_plan(ListPlan((forward, backward, *matches(1))), executor, None, Log())
     chains = [one.chain for one in outcomes.values() if isinstance(one, Played)]
     assert len(chains) == 3, outcomes[backward.identity]
     assert chains[0] != chains[1]
@@ -245,10 +247,8 @@ class LostWorkers(ThreadPoolExecutor):
         return super().submit(lose)
 
 
-def test_an_exception_of_the_executor_fails_the_match_and_not_the_run(
-    match_of: MatchOf, folder: Path, tmp_path: Path
-) -> None:
-    plan = ListPlan(tuple(matches(match_of, folder, 2)))
+def test_an_exception_of_the_executor_fails_the_match_and_not_the_run(matches: Matches, tmp_path: Path) -> None:
+    plan = ListPlan(matches(2))
     with LostWorkers(1) as executor:
         outcomes = run_plan(plan, executor, None, Log())
     assert len(outcomes) == 2
@@ -257,8 +257,8 @@ def test_an_exception_of_the_executor_fails_the_match_and_not_the_run(
         assert outcome.reason == "its worker failed: KilledWorkerError: lost three times"
 
 
-def test_a_match_whose_worker_is_lost_is_begun_three_times(match_of: MatchOf, folder: Path) -> None:
-    plan = ListPlan(tuple(matches(match_of, folder, 2)))
+def test_a_match_whose_worker_is_lost_is_begun_three_times(matches: Matches) -> None:
+    plan = ListPlan(matches(2))
     begun = []
 
     class Counted(LostWorkers):
@@ -297,9 +297,9 @@ class Given(ThreadPoolExecutor):
 
 
 def test_a_run_shows_how_many_matches_are_done_due_and_failed_with_those_of_before(
-    match_of: MatchOf, folder: Path, tmp_path: Path
+    matches: Matches, tmp_path: Path
 ) -> None:
-    before, failed, played = matches(match_of, folder, 3)
+    before, failed, played = matches(3)
     shown, executor = Shown(), Given(1)
     executor.outcomes = {
         "seed 2": Failed(failed.identity, FailureKind.CRASHED, "no idea"),
@@ -328,8 +328,8 @@ def test_a_folder_that_holds_no_run_is_neither_read_nor_written_over(tmp_path: P
     assert (tmp_path / "run.sqlite").read_text().startswith("notes of a user")
 
 
-def test_equal_matches_in_a_plan_are_refused(match_of: MatchOf, folder: Path) -> None:
-    (one,) = matches(match_of, folder, 1)
+def test_equal_matches_in_a_plan_are_refused(matches: Matches) -> None:
+    (one,) = matches(1)
     with pytest.raises(TouchlineError, match='has "seed 1" and "seed 1", which are the same match'):
         ListPlan((one, one))
 
@@ -346,11 +346,9 @@ def _play_in_child(plan: ListPlan, folder: Path) -> None:
         run_plan(plan, executor, store, Log())
 
 
-def test_a_run_that_is_killed_at_any_instant_ends_as_an_undisturbed_one(
-    match_of: MatchOf, folder: Path, tmp_path: Path
-) -> None:
+def test_a_run_that_is_killed_at_any_instant_ends_as_an_undisturbed_one(matches: Matches, tmp_path: Path) -> None:
     """Killed 8 times, each time a random while after it has begun, and resumed."""
-    plan = ListPlan(tuple(matches(match_of, folder, 4)))
+    plan = ListPlan(matches(4))
     with ThreadPoolExecutor(1) as executor, closing(RunStore(tmp_path / "undisturbed")) as store:
         wanted = bytes_of(run_plan(plan, executor, store, Log()))
     draw = random.Random(7)
@@ -366,12 +364,10 @@ def test_a_run_that_is_killed_at_any_instant_ends_as_an_undisturbed_one(
         assert bytes_of(run_plan(plan, executor, store, Log())) == wanted
 
 
-def test_a_run_is_verified_and_the_match_that_does_not_fit_is_named(
-    match_of: MatchOf, folder: Path, tmp_path: Path
-) -> None:
-    planned = matches(match_of, folder, 3, tmp_path / "recordings")
+def test_a_run_is_verified_and_the_match_that_does_not_fit_is_named(matches: Matches, tmp_path: Path) -> None:
+    planned = matches(3, tmp_path / "recordings")
     with ThreadPoolExecutor(1) as executor, closing(RunStore(tmp_path)) as store:
-        outcomes = run_plan(ListPlan(tuple(planned)), executor, store, Log())
+        outcomes = run_plan(ListPlan(planned), executor, store, Log())
         assert not [check for check in verify_run(planned, outcomes, tmp_path, executor) if check.faults]
         (tmp_path / "recordings" / "2.mcap").write_bytes((tmp_path / "recordings" / "3.mcap").read_bytes())
         (found,) = (check for check in verify_run(planned, outcomes, tmp_path, executor) if check.faults)
@@ -379,12 +375,10 @@ def test_a_run_is_verified_and_the_match_that_does_not_fit_is_named(
     assert "its configuration is not that of the plan" in found.faults[0]
 
 
-def test_a_match_without_a_recording_is_verified_by_playing_it_again(
-    match_of: MatchOf, folder: Path, tmp_path: Path
-) -> None:
-    planned = matches(match_of, folder, 1)
+def test_a_match_without_a_recording_is_verified_by_playing_it_again(matches: Matches, tmp_path: Path) -> None:
+    planned = matches(1)
     with ThreadPoolExecutor(1) as executor, closing(RunStore(tmp_path)) as store:
-        outcomes = run_plan(ListPlan(tuple(planned)), executor, store, Log())
+        outcomes = run_plan(ListPlan(planned), executor, store, Log())
         assert not [check for check in verify_run(planned, outcomes, tmp_path, executor) if check.faults]
         (identity, played) = next(iter(outcomes.items()))
         assert isinstance(played, Played)
@@ -393,12 +387,10 @@ def test_a_match_without_a_recording_is_verified_by_playing_it_again(
     assert check.faults == (f"played again, it was another match: its hash chain ends with {played.chain}",)
 
 
-def test_figures_in_the_table_that_are_not_those_of_the_recording_are_found(
-    match_of: MatchOf, folder: Path, tmp_path: Path
-) -> None:
-    planned = matches(match_of, folder, 1, tmp_path / "recordings")
+def test_figures_in_the_table_that_are_not_those_of_the_recording_are_found(matches: Matches, tmp_path: Path) -> None:
+    planned = matches(1, tmp_path / "recordings")
     with ThreadPoolExecutor(1) as executor:
-        outcomes = run_plan(ListPlan(tuple(planned)), executor, None, Log())
+        outcomes = run_plan(ListPlan(planned), executor, None, Log())
         ((identity, played),) = outcomes.items()
         assert isinstance(played, Played)
         forged = {identity: replace(played, figures=replace(played.figures, sides=swapped(played.figures.sides)))}
@@ -408,10 +400,8 @@ def test_figures_in_the_table_that_are_not_those_of_the_recording_are_found(
     assert untouched.faults == ()
 
 
-def test_a_match_that_was_not_played_and_evidence_that_is_gone_are_faults(
-    match_of: MatchOf, folder: Path, tmp_path: Path
-) -> None:
-    missing, failed = matches(match_of, folder, 2)
+def test_a_match_that_was_not_played_and_evidence_that_is_gone_are_faults(matches: Matches, tmp_path: Path) -> None:
+    missing, failed = matches(2)
     outcome = Failed(failed.identity, FailureKind.CRASHED, "no idea", (Side.CYAN,), "logs/2")
     assert check_match(missing, None, tmp_path).faults == ("it was not played",)
     assert check_match(failed, outcome, tmp_path).faults == ("its evidence logs/2 is gone",)
@@ -420,8 +410,8 @@ def test_a_match_that_was_not_played_and_evidence_that_is_gone_are_faults(
     assert check_match(failed, replace(outcome, evidence=None), tmp_path).faults == ()
 
 
-def test_digests_of_teams_are_compared_unless_code_is_left_out(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
-    (one,) = matches(match_of, folder, 1)
+def test_digests_of_teams_are_compared_unless_code_is_left_out(matches: Matches, folder: Path, tmp_path: Path) -> None:
+    (one,) = matches(1)
     planned = replace(one, code={Side.MAGENTA: "0" * 32, Side.CYAN: code_digest(one.config, Side.CYAN, folder)})
     outcome = Failed(planned.identity, FailureKind.CRASHED, "no idea")
     assert check_match(planned, outcome, tmp_path).faults == ("the files of Still have changed since then",)
@@ -436,10 +426,8 @@ def test_a_match_that_fails_when_it_is_played_again_is_a_fault(match_of: MatchOf
     assert (check.ticks, check.again) == (0, None)
 
 
-def test_a_sample_is_so_many_of_the_matches_in_their_order_and_the_same_each_time(
-    match_of: MatchOf, folder: Path
-) -> None:
-    all_of_them = matches(match_of, folder, 20)
+def test_a_sample_is_so_many_of_the_matches_in_their_order_and_the_same_each_time(matches: Matches) -> None:
+    all_of_them = list(matches(20))
     drawn = sampled(all_of_them, 5)
     assert len(drawn) == 5
     assert drawn == [one for one in all_of_them if one in drawn] == sampled(all_of_them, 5)
@@ -447,14 +435,14 @@ def test_a_sample_is_so_many_of_the_matches_in_their_order_and_the_same_each_tim
 
 
 def test_a_check_whose_process_is_lost_is_a_fault_but_for_a_match_that_had_failed(
-    match_of: MatchOf, folder: Path, tmp_path: Path
+    matches: Matches, tmp_path: Path
 ) -> None:
     def submit(*_: object) -> "Future[None]":
         lost: Future[None] = Future()
         lost.set_exception(DiedProcessError("its process was killed"))
         return lost
 
-    stored, failed = matches(match_of, folder, 2)
+    stored, failed = matches(2)
     outcomes: Any = {stored.identity: None}
     executor: Any = SimpleNamespace(submit=submit)
     checks = verify_run([stored, failed], outcomes, tmp_path, executor, Depth(failures=True))
