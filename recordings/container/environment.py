@@ -4,8 +4,8 @@ import hashlib
 import math
 import platform
 import struct
-from importlib.metadata import PackageNotFoundError, version
 
+from runtime.process.installed import NOT_INSTALLED, installed_version
 from schemas.wire.message import VERSION
 
 _PACKAGES = ("touchline", "mcap", "numpy", "pydantic", "eclipse-zenoh", "pybullet")
@@ -15,18 +15,14 @@ _FUNCTIONS = (math.sin, math.cos, math.tan, math.exp, math.log, math.atan, math.
 
 def library() -> str:
     """Name and version of the program that writes the file: `touchline/0.1.0`."""
-    return f"touchline/{version('touchline')}"
+    return f"touchline/{installed_version('touchline')}"
 
 
 def versions() -> dict[str, str]:
     """Versions of Python, platform and packages; a package that is not installed is left out."""
-    found = {"contract": VERSION, "python": platform.python_version()}
-    for package in _PACKAGES:
-        try:
-            found[package] = version(package)
-        except PackageNotFoundError:
-            continue
-    return found | {"platform": platform.platform(), "machine": platform.machine()}
+    packages = {package: version for package in _PACKAGES if (version := installed_version(package)) != NOT_INSTALLED}
+    machine = {"platform": platform.platform(), "machine": platform.machine()}
+    return {"contract": VERSION, "python": platform.python_version(), **packages, **machine}
 
 
 def libm_fingerprint() -> str:

@@ -37,9 +37,9 @@ def run(settings: RecorderSettings) -> int:
         return _record_keys(settings, stop.is_set)
     if settings.listen is not None:
         raise TouchlineError("--listen needs --keys, such as --keys 'robot/**'; a match is recorded at its --connect")
-    summary = record(settings, stop.is_set, _report)
+    summary = record(settings, stop.is_set, log_line)
     if summary is None:
-        _report("stopped before there was a host; nothing is recorded")
+        log_line("stopped before there was a host; nothing is recorded")
         return 1
     result = summary.result
     log_line(closing_line(summary), stream=sys.stdout, messages=result.messages, lost=result.lost, size=summary.size)
@@ -48,18 +48,14 @@ def run(settings: RecorderSettings) -> int:
 
 def _record_keys(settings: RecorderSettings, should_stop: Callable[[], bool]) -> int:
     """Record any keys; returns the exit status, 1 if there was no network before the end."""
-    keys = record_keys(settings, should_stop, _report)
+    keys = record_keys(settings, should_stop, log_line)
     if keys is None:
-        _report("stopped before there was a network; nothing is recorded")
+        log_line("stopped before there was a network; nothing is recorded")
         return 1
     if not keys.messages:
-        _report("nothing arrived on --keys; a match's host shows its topics only, such as touchline/friendly/world")
+        log_line("nothing arrived on --keys; a match's host shows its topics only, such as touchline/friendly/world")
     log_line(keys.line(), stream=sys.stdout, messages=keys.messages, lost=keys.lost, size=keys.size)
     return 0
-
-
-def _report(line: str) -> None:
-    log_line(line)
 
 
 def closing_line(summary: RecordingSummary) -> str:

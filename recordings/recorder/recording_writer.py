@@ -87,13 +87,12 @@ class RecordingWriter:
         """Flush the messages so far to the disk soon, so that they survive a loss of power."""
         self._hand_over(self._sync)
 
-    def finish(self, result: Result | None) -> int:
-        """Write the result, if there is one, close the file, and return its size in bytes."""
+    def finish(self, result: Result | None) -> None:
+        """Write the result, if there is one, and close the file."""
         self._hand_over(partial(self._write_tail, to_metadata(result) if result is not None else None))
         self._end()
         self._raise_error()
         self._file.close()
-        return self.path.stat().st_size
 
     def abandon(self) -> None:
         """Close the file as it is, with all messages so far, or remove it if it was not begun.

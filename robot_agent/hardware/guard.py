@@ -49,7 +49,7 @@ class HardwareGuard:
         self.state = HardwareState.UNCONFIGURED
         self.refused: list[str] = []
         """Why parts of the newest demand were not carried out."""
-        self._hardware, self._settings, self._model = hardware, settings, model
+        self._hardware, self.settings, self._model = hardware, settings, model
         self._robot, self._clock, self._armed = robot, clock, armed
         self._began = clock.now()
         self._checks = ReadingChecks(model.drive, settings.jump, settings.relocation)
@@ -65,16 +65,6 @@ class HardwareGuard:
         self._fell_back = self._clamped = self._filtered = 0
         self._reason = ""
         self._reported: set[str] = set()
-
-    @property
-    def clearance(self) -> float | None:
-        """m that the filter keeps; None without one."""
-        return self._settings.clearance
-
-    @property
-    def watchdog(self) -> float:
-        """s without a demand, or without a pose, after which the robot falls back."""
-        return self._settings.watchdog
 
     @property
     def time(self) -> float:
@@ -137,15 +127,15 @@ class HardwareGuard:
         Returns False if a call has not returned for so long: then only the end of the process stops the robot.
         """
         called = self._in_call
-        is_overdue = called is not None and self._clock.now() - called[1] > self._settings.watchdog
+        is_overdue = called is not None and self._clock.now() - called[1] > self.settings.watchdog
         self._overdue_looks = self._overdue_looks + 1 if is_overdue else 0
         if called is not None and self._overdue_looks >= _LOOKS:
-            self._fail(f"{called[0]} has not returned for {self._settings.watchdog:g} s")
+            self._fail(f"{called[0]} has not returned for {self.settings.watchdog:g} s")
             return False
         if self.state is not HardwareState.ACTIVE or not self._lock.acquire(blocking=False):
             return True
         try:
-            silent = self._demanded_at is None or self.time - self._demanded_at > self._settings.watchdog
+            silent = self._demanded_at is None or self.time - self._demanded_at > self.settings.watchdog
             if silent:
                 self._fall_back()
         except HardwareError:
@@ -172,7 +162,7 @@ class HardwareGuard:
             robot=self._robot,
             state=self.state,
             armed=self._armed,
-            fallback=self._settings.fallback,
+            fallback=self.settings.fallback,
             fell_back=self._fell_back,
             clamped=self._clamped,
             filtered=self._filtered,
@@ -185,9 +175,9 @@ class HardwareGuard:
         if self._demanded_at is not None:
             self._demanded_at = None
             self._fell_back += 1
-            self._reason = self._reason or f"no demand for {self._settings.watchdog:g} s"
-            self._report(f"{self._reason}: {self._settings.fallback.value}")
-        drive = self._ramped(_AT_REST) if self._settings.fallback is Fallback.BRAKE else None
+            self._reason = self._reason or f"no demand for {self.settings.watchdog:g} s"
+            self._report(f"{self._reason}: {self.settings.fallback.value}")
+        drive = self._ramped(_AT_REST) if self.settings.fallback is Fallback.BRAKE else None
         if drive is None:
             self._sent = _AT_REST  # the next demand begins there
         self._call("actuate", lambda: self._hardware.actuate(drive, None, False))
@@ -205,9 +195,9 @@ class HardwareGuard:
         Raises:
             HardwareError: it does not.
         """
-        if not self._lock.acquire(timeout=self._settings.watchdog):
+        if not self._lock.acquire(timeout=self.settings.watchdog):
             called = self._in_call
-            self._fail(f"{called[0] if called else name} has not returned for {self._settings.watchdog:g} s")
+            self._fail(f"{called[0] if called else name} has not returned for {self.settings.watchdog:g} s")
             raise HardwareError(self._reason)
         try:
             yield
@@ -243,9 +233,9 @@ class HardwareGuard:
                 self._in_call = None
                 took = self._clock.now() - began
                 call = self._calls.setdefault(name, _Call())
-                call.add(took, self._settings.deadline if name in _TIMED else math.inf)
-                if took > self._settings.deadline and name in _TIMED:
-                    self._report(f"{name} takes longer than its deadline of {1e3 * self._settings.deadline:g} ms")
+                call.add(took, self.settings.deadline if name in _TIMED else math.inf)
+                if took > self.settings.deadline and name in _TIMED:
+                    self._report(f"{name} takes longer than its deadline of {1e3 * self.settings.deadline:g} ms")
 
     def _fail(self, reason: str) -> None:
         if self.state is not HardwareState.ERROR:

@@ -101,7 +101,7 @@ class HardwareRunner(BrainRunner):
     def _think(self, sight: Sight) -> bytes:
         """Decide, and let the hardware do it; the host's sight is answered."""
         command = Command.decode(super()._think(sight))
-        clearance, drive = self.guard.clearance, command.drive
+        clearance, drive = self.guard.settings.clearance, command.drive
         if clearance is not None:
             drive = keep_clear(drive, sight, self._setup, clearance)
         self.guard.actuate(command.replace(drive=drive), command.drive)
@@ -117,7 +117,7 @@ class HardwareRunner(BrainRunner):
     def _is_up_to_date(self, now: float) -> bool:
         """Whether the robot knows where it is, and how the match stands: one that is off the field gets no sights."""
         posed = self._percepts.posed
-        return posed is not None and now - posed <= self.guard.watchdog and now - self._news_at <= _OLD_NEWS
+        return posed is not None and now - posed <= self.guard.settings.watchdog and now - self._news_at <= _OLD_NEWS
 
     def _send(self) -> None:
         """Send the answer to a sight of the host once, however often the robot has thought meanwhile."""

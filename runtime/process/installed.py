@@ -2,10 +2,12 @@
 
 from importlib.metadata import PackageNotFoundError, version
 
+NOT_INSTALLED = "not installed"
+
 
 def installed_version(package: str) -> str:
-    """The version of an installed package, or `not installed`."""
+    """The version of an installed package, or `NOT_INSTALLED`."""
     try:
         return version(package)
     except PackageNotFoundError:
-        return "not installed"
+        return NOT_INSTALLED

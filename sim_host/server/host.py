@@ -59,7 +59,7 @@ class Host:
         self._clock = bus.clock
         self._seat = RefereeSeat()
         self._services = Services(
-            bus, self.simulation, self._batches, self._seat, self._admission, self.presence.add_refusal
+            bus, self.simulation, self._batches, self._seat, self._admission, self.presence.claim_handler.add_refusal
         )
         self.pace = _pace(config, bus, self.inbox, self.presence, self._while_waiting, self.simulation.profile)
         self._bus = bus

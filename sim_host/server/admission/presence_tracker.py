@@ -43,8 +43,8 @@ class PresenceTracker:
         self._agent_stats = agent_stats
         self._accounts = accounts
         self._admitted = admitted
-        self._claims = Claims(eligibility)
-        self._claim_handler = ClaimHandler(bus, self._claims, invalid_log)
+        self.claims = Claims(eligibility)
+        self.claim_handler = ClaimHandler(bus, self.claims, invalid_log)
         self._known: dict[PresenceKind, dict[str, bool]] = {kind: {} for kind in _REMEMBERED}
         """Name → whether the process is present, once it has joined."""
         self.recorders: dict[str, int] = {}
@@ -61,7 +61,7 @@ class PresenceTracker:
     def update(self, timeout: float = 0.0) -> list[Presence]:
         """Process changes, waiting up to `timeout` s for the first; returns the agents that joined or left."""
         changed: list[str] = []
-        self._claim_handler.receive()
+        self.claim_handler.receive()
         presence = self._watch.receive(timeout)
         for _ in range(_MAX_CHANGES):
             if presence is None:
@@ -72,15 +72,15 @@ class PresenceTracker:
             if presence.kind is PresenceKind.RECORDER:
                 self._recorder(presence)
             elif presence.kind is PresenceKind.AGENT:
-                self._claims.set_unclaimed(presence.name, presence.alive)
+                self.claims.set_unclaimed(presence.name, presence.alive)
                 changed.append(presence.name)
             elif presence.kind is PresenceKind.SESSION:
-                robot = self._claims.set_session(presence.name, presence.alive)
+                robot = self.claims.set_session(presence.name, presence.alive)
                 changed += [robot] if robot is not None else []
             elif presence.kind is PresenceKind.REFEREE and not presence.alive:
                 self._gone_referees.append(presence.name)
             presence = self._watch.receive(0.0)
-        changed += self._claim_handler.decide()
+        changed += self.claim_handler.decide()
         self.receive_progress(0.0)
         for name in [name for name, until in self._lost.items() if self._clock.now() >= until]:
             self._forget(name)
@@ -100,13 +100,9 @@ class PresenceTracker:
 
     def pop_refusals(self) -> list[RefusedAgent]:
         """Agents that were refused since the last call."""
-        handler = self._claim_handler
+        handler = self.claim_handler
         refusals, handler.refusals = handler.refusals, []
         return refusals
-
-    def add_refusal(self, text: str) -> None:
-        """Report a process that was refused before it made a claim."""
-        self._claim_handler.add_refusal(text)
 
     def pop_gone_referees(self) -> list[str]:
         """Referees that have gone since the last call."""
@@ -118,8 +114,8 @@ class PresenceTracker:
         stats = self._agent_stats.get(robot)
         if stats is None:
             return None
-        alive = self._claims.is_present(robot)
-        stats.alive, stats.silent, stats.is_admitted = alive, 0, self._claims.admits(robot)
+        alive = self.claims.is_present(robot)
+        stats.alive, stats.silent, stats.is_admitted = alive, 0, self.claims.admits(robot)
         return Presence(PresenceKind.AGENT, robot, alive)
 
     def receive_progress(self, timeout: float) -> None:
@@ -179,10 +175,6 @@ class PresenceTracker:
     def missing_agents(self) -> list[str]:
         """Robots that have a body to move and no agent."""
         return [name for name, stats in self._agent_stats.items() if not (stats.alive or stats.idle)]
-
-    def agent_source(self, robot: str) -> str:
-        """Where the agent of a robot runs, as it has reported; empty for one that has made no claim."""
-        return self._claims.source(robot)
 
     def awaited_recorders(self) -> dict[str, int]:
         """Recorder → the newest tick it has read, of the recorders that a lockstep host waits for."""

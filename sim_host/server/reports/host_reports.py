@@ -62,7 +62,7 @@ class HostReports:
         for change in self._presence.pop_changes():
             missing = self._presence.missing_agents()
             still = f"; missing: {', '.join(missing)}" if missing else ""
-            joined = f"joined: {self._presence.agent_source(change.name)}" if change.alive else "left"
+            joined = f"joined: {self._presence.claims.source(change.name)}" if change.alive else "left"
             log.info("%s %s%s", change.name, joined, still)
 
     def _publish(self, tick: TickResult, rule: str, text: str, **about: Any) -> None:
