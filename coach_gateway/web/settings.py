@@ -1,14 +1,13 @@
 """How the page is served: address, access, tokens, limits."""
 
-import importlib.util
 from enum import StrEnum
 from typing import Annotated
 
 from pydantic import Field
 
 from coach_gateway.ports import LOOPBACK
+from runtime.process.installed import need
 from schemas.config.settings import Settings
-from schemas.errors import TouchlineError
 
 DEFAULT_PORT = 8080
 DEFAULT_PAGES = 300
@@ -42,5 +41,4 @@ def need_web() -> None:
     Raises:
         TouchlineError: a package is missing; the message has the line that installs it.
     """
-    if any(importlib.util.find_spec(name) is None for name in ("starlette", "uvicorn", "websockets")):
-        raise TouchlineError("the page needs starlette, uvicorn and websockets; pip install 'touchline[coach]'")
+    need("the page needs starlette, uvicorn and websockets", "coach", "starlette", "uvicorn", "websockets")

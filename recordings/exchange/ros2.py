@@ -10,10 +10,10 @@ from typing import Any
 
 from recordings.editing.atomic_output import ExportSummary, atomic_output
 from recordings.reading.recording import Recording
+from runtime.process.installed import need
 from runtime.ros2.match_messages import MatchMessages
 from runtime.ros2.message_types import typestore
 from runtime.ros2.topic_type import TopicType
-from schemas.errors import TouchlineError
 from schemas.side import Side
 from schemas.topics import BELIEF, COMMAND, EVENT, STATE, WORLD
 
@@ -26,12 +26,8 @@ def export(recording: Recording, out: Path) -> ExportSummary:
     Raises:
         TouchlineError: rosbags is missing, `out` already exists or cannot be written, or the recording is damaged.
     """
-    try:
-        from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
-    except ModuleNotFoundError:
-        raise TouchlineError(
-            "--format ros2 requires rosbags, which is not installed; pip install 'touchline[ros2]'"
-        ) from None
+    need("--format ros2 requires rosbags, which is not installed", "ros2", "rosbags")
+    from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
     with atomic_output(out) as folder:
         writer = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)

@@ -3,7 +3,6 @@
 The only module that uses foxglove-sdk. Its server has threads of its own; their requests are queued until `update`.
 """
 
-import importlib.util
 import json
 from queue import SimpleQueue
 from typing import TYPE_CHECKING
@@ -17,6 +16,7 @@ from recordings.reading.recording import RecordedMessage
 from recordings.replay.player import Player
 from recordings.viz.drawing import SCHEMAS, Drawing, schema_of
 from recordings.viz.foxglove import descriptors
+from runtime.process.installed import need
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.messages.setup import Setup
@@ -50,10 +50,7 @@ class LiveView:
         Raises:
             TouchlineError: foxglove-sdk is not installed, or the port is in use.
         """
-        if importlib.util.find_spec("foxglove") is None:
-            raise TouchlineError(
-                "--foxglove requires foxglove-sdk, which is not installed; pip install 'touchline[viz]'"
-            )
+        need("--foxglove requires foxglove-sdk, which is not installed", "viz", "foxglove")
         import foxglove
 
         self._setup, self._drawing = setup, Drawing(setup) if setup is not None else None

@@ -1,10 +1,10 @@
 """Certificates for TLS at a private event: a root of its own, and one certificate for the host."""
 
-import importlib.util
 from collections.abc import Sequence
 
 from pydantic import Field
 
+from runtime.process.installed import need
 from schemas.config.config_model import ConfigModel
 from schemas.errors import TouchlineError
 
@@ -29,8 +29,7 @@ def need_trustme() -> None:
     Raises:
         TouchlineError: the package is missing; names the command that installs it.
     """
-    if importlib.util.find_spec("trustme") is None:
-        raise TouchlineError("certificates for TLS need trustme; pip install 'touchline[tls]'")
+    need("certificates for TLS need trustme", "tls", "trustme")
 
 
 def make_certificate(names: Sequence[str] = ()) -> Certificate:

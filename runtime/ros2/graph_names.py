@@ -7,8 +7,8 @@ import struct
 from enum import StrEnum
 from typing import NamedTuple
 
+from runtime.process.installed import need
 from runtime.ros2.topic_type import TopicType, ros_type
-from schemas.errors import TouchlineError
 
 TOKENS = "@ros2_lv"
 """First chunk of every token."""
@@ -125,12 +125,9 @@ def gid_of(token: str) -> bytes:
     Raises:
         TouchlineError: xxhash is not installed.
     """
-    try:
-        import xxhash
-    except ModuleNotFoundError:
-        raise TouchlineError(
-            "a ROS 2 graph requires xxhash, which is not installed; pip install 'touchline[ros2]'"
-        ) from None
+    need("a ROS 2 graph requires xxhash, which is not installed", "ros2", "xxhash")
+    import xxhash
+
     whole = xxhash.xxh3_128_intdigest(token.encode())
     return (whole & _MASK_64).to_bytes(8, "little") + (whole >> 64).to_bytes(8, "little")
 

@@ -8,8 +8,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from runtime.process.installed import need
 from runtime.ros2.topic_type import TopicType
-from schemas.errors import TouchlineError
 
 PACKAGES = Path(__file__).parent
 """Folder of the packages of message types."""
@@ -27,12 +27,9 @@ def typestore(version: str = "") -> Any:
     Raises:
         TouchlineError: rosbags is not installed.
     """
-    try:
-        from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-    except ModuleNotFoundError:
-        raise TouchlineError(
-            "messages of ROS 2 require rosbags, which is not installed; pip install 'touchline[ros2]'"
-        ) from None
+    need("messages of ROS 2 require rosbags, which is not installed", "ros2", "rosbags")
+    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
     store = get_typestore(Stores.ROS2_JAZZY)
     constants, fields = store.fielddefs[_EVENT_INFO]
     store.fielddefs[_EVENT_INFO] = (constants, [(name, _without_char(desc)) for name, desc in fields])

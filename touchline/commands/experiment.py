@@ -1,14 +1,13 @@
 """`touchline experiment`: studies over factors of a match, and their reproduction."""
 
 from contextlib import closing
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from typer.core import TyperGroup
 
-from schemas.errors import TouchlineError
+from runtime.process.installed import need
 from schemas.side import Side
 from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
@@ -206,7 +205,5 @@ def _need_packages() -> None:
         TouchlineError: a package is missing; the message has the command that installs it.
     """
     options.need_pybullet()
-    if missing := next((package for package in NEEDED if find_spec(package) is None), None):
-        raise TouchlineError(
-            f'{missing} is not installed; experiments need the extra study: pip install "touchline[study]"'
-        )
+    for package in NEEDED:
+        need(f"experiments need {package}, which is not installed", "study", package)

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.sdk.contract import Briefing
+from runtime.process.installed import need
 from schemas.config.match_config import MatchConfig
-from schemas.errors import TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
 from schemas.messages.world import World
@@ -108,10 +108,9 @@ class Episode:
         Raises:
             TouchlineError: matplotlib is not installed.
         """
-        try:
-            from touchline.drawing.picture import drawn, pixels
-        except ModuleNotFoundError:
-            raise TouchlineError("render_mode needs matplotlib; run pip install 'touchline[study]'") from None
+        need("render_mode needs matplotlib", "study", "matplotlib")
+        from touchline.drawing.picture import drawn, pixels
+
         fields = {key: one for key, one in self._simulation.now.world.items() if key != "sensors"}
         figure, _, _ = drawn(self._simulation.setup(), [validated(World, fields)], PICTURE_WIDTH)
         return pixels(figure)

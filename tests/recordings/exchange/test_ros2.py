@@ -174,7 +174,7 @@ def test_the_bag_has_the_profile_and_the_quality_of_service_that_ros_asks_for(ba
 def test_without_rosbags_the_error_names_the_remedy(
     real: Recording, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setitem(sys.modules, "rosbags.rosbag2", None)
+    monkeypatch.setitem(sys.modules, "rosbags", None)
     with pytest.raises(TouchlineError, match=r"pip install 'touchline\[ros2\]'"):
         export(real, tmp_path / "bag")
     assert not (tmp_path / "bag").exists()

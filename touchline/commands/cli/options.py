@@ -13,6 +13,7 @@ from coach_gateway.web.settings import WebSettings
 from recordings.container.key_selection import KeySelection
 from robot_agent.process.stdio.command_line import check_command_line, command_line
 from runtime.bus.settings import ListenSettings, check_protected
+from runtime.process.installed import need
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import SHIPPED as PROFILES
@@ -171,8 +172,7 @@ def need_scipy() -> None:
     Raises:
         TouchlineError: scipy is missing; the message has the command that installs it.
     """
-    if importlib.util.find_spec("scipy") is None:
-        raise TouchlineError("intervals need scipy, which is not installed; pip install 'touchline[sim]'")
+    need("intervals need scipy, which is not installed", "sim", "scipy")
 
 
 def selection(include: list[str] | None, exclude: list[str] | None) -> KeySelection:

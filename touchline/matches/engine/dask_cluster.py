@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
+from runtime.process.installed import need
 from runtime.process.timing import RECONNECT_S
 from schemas.errors import TouchlineError
 
@@ -25,10 +26,8 @@ def dask_cluster(address: str, connect_s: float = RECONNECT_S) -> Iterator[tuple
     Raises:
         TouchlineError: Dask is not installed, or no scheduler answers there.
     """
-    try:
-        distributed: Any = import_module("distributed")
-    except ImportError:
-        raise TouchlineError('--dask needs Dask; install it with: pip install "touchline[cluster]"') from None
+    need("--dask needs Dask", "cluster", "distributed")
+    distributed: Any = import_module("distributed")
     try:
         client = distributed.Client(address, timeout=connect_s, set_as_default=False)
     except (OSError, ValueError) as error:

@@ -84,7 +84,7 @@ def test_a_package_that_is_missing_is_named_with_its_extra(tmp_path: Path, monke
     monkeypatch.setattr(experiment, "NEEDED", ("no_such_package",))
     status, text = run("verify", tmp_path)
     assert status != 0
-    assert 'no_such_package is not installed; experiments need the extra study: pip install "touchline[study]"' in text
+    assert "experiments need no_such_package, which is not installed; pip install 'touchline[study]'" in text
 
 
 def test_a_folder_without_a_study_is_refused(tmp_path: Path) -> None:
