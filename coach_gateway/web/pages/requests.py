@@ -55,15 +55,13 @@ class RequestHandler:
         waits for nothing.
         """
         try:
-            match request:
-                case PageOrder():
-                    order_of = partial(self._order_clients[request.side].order, request.side)
-                    async with self._ordering[request.side]:  # of two orders the later one has the larger number
-                        order = await _in_thread(self._threads[role], partial(order_of, **request.order.content()))
-                    return Reply(id=request.id, accepted=True, answer=_content(order))
-                case _:
-                    threads = self._stops if is_stop(request) else self._threads[role]
-                    reply = await _in_thread(threads, self._query(role, request))
+            if isinstance(request, PageOrder):
+                order_of = partial(self._order_clients[request.side].order, request.side)
+                async with self._ordering[request.side]:  # of two orders the later one has the larger number
+                    order = await _in_thread(self._threads[role], partial(order_of, **request.order.content()))
+                return Reply(id=request.id, accepted=True, answer=_content(order))
+            threads = self._stops if is_stop(request) else self._threads[role]
+            reply = await _in_thread(threads, self._query(role, request))
         except TouchlineError as error:
             return Reply(id=request.id, accepted=False, reason=str(error))
         return Reply(id=request.id, accepted=reply.accepted, reason=reply.reason, answer=_content(reply))
@@ -79,18 +77,14 @@ class RequestHandler:
         source = {"source": SOURCES.get(role, role.value)}
         match request:
             case PageAction():
-                action = request.action.replace(**source)
-                return lambda: self.client.act(action)
+                return partial(self.client.act, request.action.replace(**source))
             case PageScene() | PageParameters():
                 topic = SCENE if isinstance(request, PageScene) else PARAMETERS
-                named = request.request.replace(**source)
-                return lambda: self.client.ask(topic, named)
+                return partial(self.client.ask, topic, request.request.replace(**source))
             case PageReplay():
-                replay = request.request
-                return lambda: self.client.ask(REPLAY_CONTROL, replay)
+                return partial(self.client.ask, REPLAY_CONTROL, request.request)
             case PageSeat():
-                operation = request.operation
-                return lambda: self.client.referee_seat(operation, **source)
+                return partial(self.client.referee_seat, request.operation, **source)
         raise TypeError(f"{request.deed} is not a query to the match")
 
 
