@@ -12,6 +12,7 @@ import sys
 import time
 from collections.abc import Callable
 from datetime import UTC
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -165,19 +166,9 @@ def fake_batches(session: zenoh.Session, prefix: str, until: float) -> None:
     )
 
 
-def flood(session: zenoh.Session, prefix: str, until: float) -> None:
-    """Small messages on one robot's key, as fast as they can be sent."""
-    publisher = session.declare_publisher(
-        f"{prefix}robot/cyan1/command", congestion_control=zenoh.CongestionControl.BLOCK
-    )
-    while time.monotonic() < until:
-        for _ in range(1000):
-            publisher.put(COMMAND)
-
-
-def burn(session: zenoh.Session, prefix: str, until: float) -> None:
-    """Messages at full speed that reach nobody: only the CPU time of an attacker, for comparison."""
-    publisher = session.declare_publisher(f"{prefix}nobody", congestion_control=zenoh.CongestionControl.BLOCK)
+def flood(session: zenoh.Session, prefix: str, until: float, key: str = "robot/cyan1/command") -> None:
+    """Small messages on one key, as fast as they can be sent."""
+    publisher = session.declare_publisher(f"{prefix}{key}", congestion_control=zenoh.CongestionControl.BLOCK)
     while time.monotonic() < until:
         for _ in range(1000):
             publisher.put(COMMAND)
@@ -351,8 +342,8 @@ RAW_ATTACKS: dict[str, Callable[..., None]] = {
     "deaf_readers": deaf_readers,
 }
 """Attacks on the port itself, or by connections of their own; each is called with the endpoint and the match."""
-CONTROLS: dict[str, Attack] = {"burn": burn}
-"""What an attacker's process costs the others by its CPU time alone."""
+CONTROLS: dict[str, Attack] = {"burn": partial(flood, key="nobody")}
+"""What an attacker's process costs the others by its CPU time alone: its messages reach nobody."""
 
 
 def user_of(path: str | Path) -> dict[str, str]:

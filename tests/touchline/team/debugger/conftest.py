@@ -4,6 +4,7 @@ import sys
 from collections.abc import Callable
 from itertools import count
 from pathlib import Path
+from textwrap import indent
 from typing import Any
 
 import pytest
@@ -19,6 +20,17 @@ SIMPLE = "robot_agent.teams.simple:Simple"
 SIDES = {f"teams.{side}": {"size": 2, "brain": SIMPLE} for side in ("cyan", "magenta")}
 UNTIL = 4.0
 _NUMBERS = count()
+PLAYS_AS_SIMPLE = """from msgspec.structs import replace
+from robot_agent.teams.simple import Simple
+from touchline import Drive
+class Mine(Simple):
+    def act(self, sight):
+        command = super().act(sight)
+"""
+PLAYS = """from touchline import Action, Drive, Player, skills
+class Mine(Player):
+    def play(self, belief, order):
+"""
 
 
 @pytest.fixture(scope="session")
@@ -30,46 +42,29 @@ def played(match_recorder: Callable[..., None], tmp_path_factory: pytest.TempPat
 
 
 @pytest.fixture
-def brain(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., str]:
-    """Writes a brain that plays as `Simple` but for the given lines, which see `sight` and `command`."""
+def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str, str, str], str]:
+    """Writes the class `Mine`: the lines before those of the test, these, and those after them."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", [*sys.path])
 
-    def write(lines: str, top: str = "") -> str:
-        module = f"brain_of_test_{next(_NUMBERS)}"
-        body = "".join(f"        {line}\n" for line in lines.splitlines())
-        (tmp_path / f"{module}.py").write_text(
-            "from msgspec.structs import replace\n"
-            "from robot_agent.teams.simple import Simple\n"
-            "from touchline import Drive\n"
-            f"{top}\n"
-            "class Mine(Simple):\n"
-            "    def act(self, sight):\n"
-            "        command = super().act(sight)\n"
-            f"{body}"
-            "        return command\n"
-        )
-        return f"{module}:Mine"
+    def write(before: str, lines: str, after: str) -> str:
+        name = f"brain_of_test_{next(_NUMBERS)}"
+        (tmp_path / f"{name}.py").write_text(f"{before}{indent(lines, ' ' * 8)}\n{after}")
+        return f"{name}:Mine"
 
     return write
 
 
 @pytest.fixture
-def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., str]:
+def brain(module: Callable[[str, str, str], str]) -> Callable[..., str]:
+    """Writes a brain that plays as `Simple` but for the given lines, which see `sight` and `command`."""
+    return lambda lines, top="": module(f"{top}\n{PLAYS_AS_SIMPLE}", lines, "        return command\n")
+
+
+@pytest.fixture
+def player(module: Callable[[str, str, str], str]) -> Callable[[str], str]:
     """Writes a `Player` whose `play` has the given lines, which see `self`, `belief` and `order`."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(sys, "path", [*sys.path])
-
-    def write(lines: str) -> str:
-        module = f"brain_of_test_{next(_NUMBERS)}"
-        body = "".join(f"        {line}\n" for line in lines.splitlines())
-        (tmp_path / f"{module}.py").write_text(
-            "from touchline import Action, Drive, Player, skills\n"
-            f"class Mine(Player):\n    def play(self, belief, order):\n{body}"
-        )
-        return f"{module}:Mine"
-
-    return write
+    return lambda lines: module(PLAYS, lines, "")
 
 
 @pytest.fixture
