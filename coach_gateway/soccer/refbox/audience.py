@@ -5,7 +5,7 @@ from typing import Any
 
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import DisciplinaryRecord, GameState
-from schemas.messages.soccer.league.calls import Call
+from schemas.messages.soccer.league.calls import Call, minutes
 from schemas.side import Side
 from schemas.soccer.game import GameStage, OffField, Phase
 
@@ -59,8 +59,8 @@ class Audience:
             "version": VERSION,
             "gameState": number,
             "gameStateString": _STATES[number],
-            "gameTime": _minutes(state.clock - self._half_began),
-            "gameRunTime": _minutes(state.effective - self._effective_began),
+            "gameTime": minutes(state.clock - self._half_began),
+            "gameRunTime": minutes(state.effective - self._effective_began),
             "teamA": _team(Side.CYAN, state, setup, worlds),
             "teamB": _team(Side.MAGENTA, state, setup, worlds),
         }
@@ -97,8 +97,3 @@ def _robot_state(record: DisciplinaryRecord) -> str:
     if record.off_field is not None:
         return _WORDS.get(record.off_field, "repair")
     return "yellow" if record.yellow else "play"
-
-
-def _minutes(seconds: float) -> str:
-    whole = max(0, int(seconds))
-    return f"{whole // 60:02d}:{whole % 60:02d}"

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from schemas.messages.soccer.game import GameState
-from schemas.messages.soccer.league.calls import calls
+from schemas.messages.soccer.league.calls import calls, minutes
 from schemas.messages.soccer.league.signals import Signal
 from schemas.side import Side
 from schemas.soccer.game import GameStage, Phase
@@ -61,9 +61,4 @@ def _line(epoch_ms: int, game_s: float, run_s: float, state: str, signal: Signal
     description = (
         f"{side.value.upper()} {signal.description}" if side is not None and signal.sided else signal.description
     )
-    return f"{epoch_ms},{_minutes(game_s)}({_minutes(run_s)}),{state},{signal.character_for(side)},{description}"
-
-
-def _minutes(seconds: float) -> str:
-    whole = max(0, int(seconds))
-    return f"{whole // 60:02d}:{whole % 60:02d}"
+    return f"{epoch_ms},{minutes(game_s)}({minutes(run_s)}),{state},{signal.character_for(side)},{description}"

@@ -104,3 +104,9 @@ def _person(was: DisciplinaryRecord, now: DisciplinaryRecord) -> Iterator[Signal
         yield _LEAVES[now.off_field]
     elif left and was.off_field is OffField.REPAIR:
         yield BY_NAME["REPAIR_END"]
+
+
+def minutes(seconds: float) -> str:
+    """A time of the game as the box writes it, `07:30`."""
+    whole = max(0, int(seconds))
+    return f"{whole // 60:02d}:{whole % 60:02d}"
