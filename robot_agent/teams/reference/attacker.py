@@ -70,8 +70,10 @@ def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Par
     if shot is not None and shot.chance > _least_chance(now, ball, parameters, is_late=is_late):
         return Choice(_shoot(now, ball, shot, setup, limits, parameters), None, weighed, shot)
     if ball[0] < parameters.clears_before:
-        best = best or best_clear(ball, me.heading, now.opponents, pitch, parameters)
-        return Choice(_pass(now, ball, best, setup, limits, parameters), best, weighed)
+        if best is None and (is_late or _is_pressed(now, ball, parameters.clear_pressed)):
+            best = best_clear(ball, me.heading, now.opponents, pitch, parameters)
+        if best is not None:
+            return Choice(_pass(now, ball, best, setup, limits, parameters), best, weighed)
     if best is not None and (best.value > dribble_worth or (is_late and best.chance > parameters.pass_late)):
         return Choice(_pass(now, ball, best, setup, limits, parameters), best, weighed)
     return Choice(_dribble(now, way, setup, limits, parameters), None, weighed)
@@ -83,8 +85,12 @@ def _least_chance(now: Situation, ball: Point, parameters: Parameters, *, is_lat
         return parameters.shot_late
     if now.aimed is not None:
         return parameters.shot_keeps
-    nearest = min((math.dist(ball, opponent) for opponent in now.opponents), default=math.inf)
-    return parameters.shot_worth if nearest < parameters.shot_pressed else parameters.shot_waits
+    return parameters.shot_worth if _is_pressed(now, ball, parameters.shot_pressed) else parameters.shot_waits
+
+
+def _is_pressed(now: Situation, ball: Point, within: float) -> bool:
+    """Whether an opponent is so near to the ball, m."""
+    return any(math.dist(ball, opponent) < within for opponent in now.opponents)
 
 
 def _best_pass(now: Situation, ball: Point, pitch: Pitch, parameters: Parameters) -> Pass | None:
@@ -102,7 +108,7 @@ def _best_dribble(now: Situation, ball: Point, pitch: Pitch, parameters: Paramet
     """The best direction to carry the ball, rad, and its value."""
     to_goal = math.atan2(-ball[1], pitch.goal_line - parameters.dribble_aims - ball[0])
     best, most, step = to_goal, -math.inf, parameters.dribble_step
-    pressed = min((math.dist(ball, opponent) for opponent in now.opponents), default=9.0) < parameters.pressed
+    pressed = _is_pressed(now, ball, parameters.pressed)
     for turn in _WAYS:
         way = to_goal + turn
         end = ball[0] + step * math.cos(way), ball[1] + step * math.sin(way)
@@ -138,7 +144,7 @@ def _pass(now: Situation, ball: Point, best: Pass, setup: Setup, limits: DriveLi
     """Aim while turning; a pass arrives as fast as a dribbler keeps it."""
     speed, error = best.strength(ball, setup, parameters)
     velocity = _toward(now.me, best.target, parameters.pass_drive * parameters.dribble_speed)
-    motion, kick = kick_on_the_run(now.me, best.target, speed, error, velocity, limits, best.mode)
+    motion, kick = kick_on_the_run(now.me, best.target, speed, error, velocity, limits)
     intention = f"pass to {best.receiver}" if best.receiver else "kick away"
     pass_to = best.receiver or None if kick is not None else None
     return Action(Role.ATTACKER, intention, motion, dribble=True, kick=kick, pass_to=pass_to)

@@ -1,4 +1,7 @@
-"""A ball that is kicked away: far ahead out of the own third, where opponents that win it shoot at once. Pure."""
+"""A ball that is kicked away: far ahead out of the own third, where opponents that win it shoot at once. Pure.
+
+It goes along the ground: a lob from the own half that is no pass is a foul.
+"""
 
 import math
 from collections.abc import Sequence
@@ -8,45 +11,29 @@ from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import Pass, in_time
 from schemas.config.sections import Pitch
 from schemas.frames import Point, wrap
-from schemas.messages.command import KickMode
 
 _WAYS = tuple(math.radians(angle) for angle in range(-60, 61, 15))
 """Directions from the way to their goal line."""
 
 
 def best_clear(ball: Point, heading: float, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters) -> Pass:
-    """The kick to nobody that is likeliest to get far: along the ground, or lofted over opponents in the way.
+    """The kick to nobody that is likeliest to get far.
 
     `heading`: of the robot, rad; where it points already is one of the directions.
     """
     ahead = [heading] if math.cos(heading) > parameters.clear_cosine else []
-    found = [
-        _clear(ball, way, abs(wrap(way - heading)), mode, opponents, pitch, parameters)
-        for way in (*_WAYS, *ahead)
-        for mode in (KickMode.GROUND, KickMode.LOFT)
-    ]
+    found = [_clear(ball, way, abs(wrap(way - heading)), opponents, pitch, parameters) for way in (*_WAYS, *ahead)]
     return max(found, key=lambda one: one.value)
 
 
 def _clear(
-    ball: Point,
-    way: float,
-    turn: float,
-    mode: KickMode,
-    opponents: Sequence[Point],
-    pitch: Pitch,
-    parameters: Parameters,
+    ball: Point, way: float, turn: float, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters
 ) -> Pass:
     """The kick in one direction, valued by the metres that the ball gains."""
     c, s = math.cos(way), math.sin(way)
-    rolls = mode is KickMode.GROUND
-    passes_by, room, share = (
-        (parameters.clear_lane, parameters.clear_room, 1.0)
-        if rolls
-        else (parameters.lob_rises, parameters.lob_room, parameters.clear_loft)
-    )
-    width = lane_width(ball, (ball[0] + passes_by * c, ball[1] + passes_by * s), opponents)
-    sure = share * max(0.0, min(1.0, width / room - 0.2)) * in_time(turn, ball, opponents, parameters)
+    lane = parameters.clear_lane
+    width = lane_width(ball, (ball[0] + lane * c, ball[1] + lane * s), opponents)
+    sure = max(0.0, min(1.0, width / parameters.clear_room - 0.2)) * in_time(turn, ball, opponents, parameters)
     far = parameters.clear_far
     stays = [  # m until it may be over a touch line, with the error of the kick
         (pitch.touch_line - side * ball[1]) / (side * s + parameters.clear_error)
@@ -55,4 +42,4 @@ def _clear(
     ]
     gains = c * max(0.0, min(far, *stays))
     target = ball[0] + far * c, ball[1] + far * s
-    return Pass("", target, sure, sure * gains - parameters.clear_turn * turn, mode)
+    return Pass("", target, sure, sure * gains - parameters.clear_turn * turn)

@@ -152,7 +152,7 @@ class Parameters:
     """m of room that count at most."""
     prepared: float = 0.6
     """m into the other half, where a pass that is received makes a goal count: noise and the ball's roll."""
-    pass_bonus: float = 0.06
+    pass_bonus: float = 0.12
     """Value of a pass besides its progress: the ball moves faster than robots, and opponents have to turn."""
     pass_prepares: float = 0.25
     """Value of a pass into the other half, without which a goal would not count."""
@@ -182,14 +182,14 @@ class Parameters:
     """m; behind this x the ball must not be lost: of 33 shots of `early`, 26 came within 10 s of that."""
     clears_to: float = -3.0
     """m; the least x to which a pass leads out of there."""
+    clear_pressed: float = 2.5
+    """m to an opponent within which the ball is kicked away where no pass leads out; with more room it is carried."""
     clear_sure: float = 0.7
     """Least chance with which it gets through its first `clear_lane`: beyond, a ball that is lost costs little."""
     clear_lane: float = 6.0
     """m of its way that a ball is kicked away through, along the ground."""
     clear_room: float = 0.7
     """m to the nearest opponent beside it with which it gets through."""
-    clear_loft: float = 0.7
-    """Value of a ball that is lofted, as a share of one along the ground: it bounces, and goes over the touch line."""
     clear_far: float = 14.0
     """m that a ball is kicked away at most."""
     clear_turn: float = 2.0

@@ -10,7 +10,6 @@ from robot_agent.soccer.skills.pass_to import pass_speed
 from robot_agent.teams.reference.parameters import Parameters
 from schemas.config.sections import Pitch
 from schemas.frames import Point, wrap
-from schemas.messages.command import KickMode
 from schemas.messages.setup import Setup
 
 
@@ -23,7 +22,6 @@ class Pass(NamedTuple):
     chance: float
     """Of arriving, 0 to 1."""
     value: float
-    mode: KickMode = KickMode.GROUND
 
     def strength(self, start: Point, setup: Setup, parameters: Parameters) -> tuple[float, float]:
         """Speed of the kick in m/s, and by how many m it may miss the target."""

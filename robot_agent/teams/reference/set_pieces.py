@@ -15,9 +15,7 @@ from schemas.messages.setup import Setup
 from schemas.soccer.game import TeamPhase
 
 KICK_OFF_TO = (0.8, 3.0)
-"""m; target of a kick-off: ahead, so that the taker waits behind the ball in its own half."""
-KICK_OFF_ARRIVING = 1.0
-"""m/s on arrival; the ball waits there for its receiver, which stands in its own half until START."""
+"""m; where the taker of a kick-off points before START: ahead, so that it waits behind the ball in its own half."""
 
 
 class Restart(NamedTuple):
@@ -59,36 +57,27 @@ def restart_kick(now: Restart, setup: Setup, parameters: Parameters) -> RestartK
         corner = pitch.goal_line, parameters.penalty_corner * pitch.goal_width
         return RestartKick(corner, setup.kicker.max_ground_speed, parameters.shot_error, None)
     best = _receiver(now, pitch, parameters)
-    if best is None and now.spot[0] < parameters.clears_before:
+    is_over = not now.running or now.waited > parameters.restart_wait
+    if best is None and is_over and now.spot[0] < parameters.clears_before:
         best = best_clear(now.spot, 0.0, now.opponents, pitch, parameters)
-    is_kick_off = now.phase is TeamPhase.OUR_KICK_OFF
-    if best is not None and not is_kick_off:
+    if best is not None:
         return RestartKick(best.target, *best.strength(now.spot, setup, parameters), best)
-    target = best.target if best is not None else KICK_OFF_TO
-    arriving = KICK_OFF_ARRIVING if is_kick_off else parameters.pass_arriving
-    speed = pass_speed(math.dist(now.spot, target), setup, arriving)
-    waits = best is None and now.running and now.waited < parameters.restart_wait
-    return RestartKick(target, speed, parameters.pass_error, best, waits)
+    speed = pass_speed(math.dist(now.spot, KICK_OFF_TO), setup, parameters.pass_arriving)
+    return RestartKick(KICK_OFF_TO, speed, parameters.pass_error, None, waits=not is_over)
 
 
 def _receiver(now: Restart, pitch: Pitch, parameters: Parameters) -> Pass | None:
-    """The pass of the restart; what was chosen stays while the taker steps in, and for a kick-off."""
-    if now.phase is TeamPhase.OUR_KICK_OFF:
-        is_kick_off = now.chosen is not None and now.chosen.target[0] == KICK_OFF_TO[0]
-        best = now.chosen if is_kick_off else kick_off(now.mates)
-    else:
-        best = now.chosen if now.running and now.away < parameters.stepped_in else None
+    """The pass of the restart; what was chosen stays while the taker steps in.
+
+    That of a kick-off is found after START only: back, most often, for which the taker goes into the other half.
+    """
+    if now.phase is TeamPhase.OUR_KICK_OFF and not now.running:
+        return None
+    if now.running and now.away < parameters.stepped_in and now.chosen is not None:
+        return now.chosen
     waited = now.waited if now.running else math.inf
     chosen = (now.chosen.receiver, now.chosen.target) if now.chosen is not None else None
-    return best or best_restart(now.spot, now.mates, now.opponents, chosen, waited, pitch, parameters)
-
-
-def kick_off(mates: Mapping[str, Body]) -> Pass | None:
-    """The kick-off: to the teammate that is nearest to the target or to its mirror image; None without teammates."""
-    x, y = KICK_OFF_TO
-    ways = [(math.dist(body[:2], (x, side * y)), name, side) for name, body in mates.items() for side in (1.0, -1.0)]
-    _, name, side = min(ways, default=(0.0, "", 1.0))
-    return Pass(name, (x, side * y), 1.0, 0.0) if name else None
+    return best_restart(now.spot, now.mates, now.opponents, chosen, waited, pitch, parameters)
 
 
 def best_restart(

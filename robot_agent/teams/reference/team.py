@@ -34,7 +34,7 @@ from robot_agent.teams.reference.shooting import Shot
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
 from schemas.frames import Point
 from schemas.messages.coach import CoachOrder
-from schemas.messages.command import Command, Drive, KickMode
+from schemas.messages.command import Command, Drive
 from schemas.messages.sight import Sight
 from schemas.soccer.game import TeamPhase
 
@@ -243,8 +243,7 @@ class Reference(Player):
             return Action(Role.ATTACKER, intention, motion)
         if not belief.holding:
             return Action(Role.ATTACKER, "step in", step_in(belief.me, ball[:2], target, self.setup, self.limits), True)
-        mode = aimed.mode if aimed is not None else KickMode.GROUND
-        motion, kick = kick_at(belief.me, target, speed, error, self.limits, mode)
+        motion, kick = kick_at(belief.me, target, speed, error, self.limits)
         receiver = aimed.receiver or None if aimed is not None and kick is not None else None
         if receiver is not None and belief.kicker_ready:
             self._promised = Promise(receiver)

@@ -174,7 +174,7 @@ def test_a_through_ball_past_a_defender_is_received_ahead_of_where_the_receiver_
                 return True
         return False
 
-    play.over("two_on_one", seeds=range(1, 4), cyan="robot_agent.teams.reference:Reference").at_least(2, is_through)
+    play.over("two_on_one", seeds=range(1, 9), cyan="robot_agent.teams.reference:Reference").at_least(3, is_through)
 
 
 def test_a_pass_for_which_the_robot_has_to_turn_before_an_opponent_comes_is_worth_less():
