@@ -1,7 +1,8 @@
 """The state of the world at one tick, as plain numbers in the field frame: the input of the referee and the sensors."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import chain
 from typing import NamedTuple, Self
 
@@ -60,14 +61,10 @@ class RobotMotions(NamedTuple):
 class RobotStates(tuple[RobotState, ...]):
     """All robots, in the order of the roster."""
 
-    motions: RobotMotions
-    """The same as arrays, made once and shared by all users, which must not change them."""
-
-    def __new__(cls, robots: Iterable[RobotState]) -> Self:
-        """The states of these robots."""
-        self = super().__new__(cls, robots)
-        self.motions = RobotMotions.of(self)
-        return self
+    @cached_property
+    def motions(self) -> RobotMotions:
+        """The same as arrays, made once and shared by all users, which must not change them."""
+        return RobotMotions.of(self)
 
 
 class Impact(NamedTuple):

@@ -11,14 +11,11 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-import numpy as np
-
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import TimeSteps
 from schemas.config.wheels import Wheels
 from schemas.messages.command import Drive
 from sim_host.actuation.drive_model import Bodies, DriveModel, Plan
-from sim_host.actuation.ramp import Flags
 from sim_host.actuation.stuck_detector import MIN_SPEED, MIN_TURN_RATE, SLOW_SHARE
 from sim_host.physics.gravity import GRAVITY
 from sim_host.physics.vectors import FieldTwist
@@ -85,11 +82,13 @@ class _Axle(NamedTuple):
 class DifferentialDrive(DriveModel):
     """The drives of some robots, each with its own memory: the motion that was planned last."""
 
+    held_back: Sequence[bool] = ()
+
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:
         self._steps, self._half_step = time.steps_per_tick, time.physics_step / 2
         self._axles = [_Axle.of(model, time.physics_step) for model in models]
         self._planned: list[_Motion] | None = None
-        self.held_back: Flags = np.zeros(len(models), dtype=bool)
+        self.held_back = [False] * len(models)
 
     def reset(self) -> None:
         """Clear the memory: the next tick begins from the measured speeds ahead and turn rates."""
@@ -105,11 +104,10 @@ class DifferentialDrive(DriveModel):
         last = measured if self._planned is None else self._planned
         planned = [axle.near(*motions) for axle, *motions in zip(self._axles, last, measured, strict=True)]
         wanted = [axle.within_limits(demand) for axle, demand in zip(self._axles, demands, strict=True)]
-        held = [
+        self.held_back = [
             near != before and _is_slow(now, goal)
             for near, before, now, goal in zip(planned, last, measured, wanted, strict=True)
         ]
-        self.held_back = np.array(held, dtype=bool)
         return self._follow(planned, wanted, bodies)
 
     def _follow(self, planned: list[_Motion], wanted: list[_Motion], bodies: Bodies) -> Iterator[list[FieldTwist]]:

@@ -7,7 +7,6 @@ from typing import ClassVar, NamedTuple
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import TimeSteps
 from schemas.messages.command import Drive
-from sim_host.actuation.ramp import Flags
 from sim_host.physics.engine import Engine
 from sim_host.physics.vectors import FieldTwist
 from sim_host.snapshot import RobotState, RobotStates
@@ -35,8 +34,11 @@ class DriveModel(ABC):
 
     yields: ClassVar[bool] = False
     """The drive plans a whole tick, and asks which robots may touch something: they yield to what is stronger."""
-    held_back: Flags
-    """Per robot, at the beginning of the tick that was planned last: it moves well below its demand."""
+
+    @property
+    @abstractmethod
+    def held_back(self) -> Sequence[bool]:
+        """Per robot, at the beginning of the tick that was planned last: it moves well below its demand."""
 
     @abstractmethod
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None: ...

@@ -6,9 +6,6 @@ to tick hide that a robot is held back.
 
 from collections.abc import Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
 from schemas.config.robot_model import RobotModel
 from schemas.messages.command import Drive
 from sim_host.actuation.progress import HeldBackMotion
@@ -36,15 +33,15 @@ class StuckDetector:
         self._progress: dict[int, HeldBackMotion] = {}
 
     def update(
-        self, indices: Sequence[int], held: NDArray[np.bool_], robots: Sequence[RobotState], demands: Sequence[Drive]
+        self, indices: Sequence[int], held: Sequence[bool], robots: Sequence[RobotState], demands: Sequence[Drive]
     ) -> None:
         """Update the robots with these indices: whether each is held back in this tick, its state and its demand."""
-        is_held, watched = held.tolist(), self._progress
-        if not watched and True not in is_held:
+        watched = self._progress
+        if not watched and True not in held:
             return
         for place, index in enumerate(indices):
-            if is_held[place] or index in watched:
-                self._watch(index, is_held[place], robots[place], demands[place])
+            if held[place] or index in watched:
+                self._watch(index, held[place], robots[place], demands[place])
 
     def _watch(self, index: int, is_held: bool, robot: RobotState, demand: Drive) -> None:
         """Update the progress of one robot, from the tick in which it is held back until it moves freely again."""

@@ -1,89 +1,50 @@
 """The drive model `velocity`: the robot moves with the planned velocity, within the limits of its drive."""
 
-from collections.abc import Sequence
-from itertools import chain
-from operator import attrgetter
-
-import numpy as np
-
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import TimeSteps
+from schemas.frames import rotate, to_body
 from schemas.messages.command import Drive
-from sim_host.actuation.drive_model import Bodies, DriveModel
-from sim_host.actuation.ramp import Flags, Ramp, Vectors
-from sim_host.actuation.stuck_detector import MIN_SPEED, MIN_TURN_RATE, SLOW_SHARE
+from sim_host.actuation.ramp import Planar, headings_of
+from sim_host.actuation.set_motion import SetMotion, SetMotionDrive, slip_of
 from sim_host.physics.vectors import FieldTwist
-from sim_host.snapshot import RobotMotions, RobotStates
-
-_twist = attrgetter("vx", "vy", "omega")
-_NUMBERS = 4
-"""Numbers in a robot's motion: vx, vy, omega, and the imaginary part of the turn rate, which is 0."""
-_UNDISTURBED = np.array(1e-3)
-"""m/s and rad/s; a robot whose measured motion differs by no more from the set one was not disturbed."""
+from sim_host.snapshot import RobotState
 
 
-class VelocityDrive(DriveModel):
-    """The drives of some robots, each with its own memory.
+class _Velocity(SetMotion):
+    """The drive of one robot."""
 
-    Their motions are in one array: for each robot its velocity, x + iy, and then its turn rate.
-    """
+    def __init__(self, time: TimeSteps, model: RobotModel) -> None:
+        super().__init__(time, model)
+        self._step = time.physics_step
+        self._in_body: Planar = (0.0, 0.0)
+        """The velocity that was set last, in the body frame: constant there, as with wheels that keep their speeds."""
 
-    def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:
-        drives = [model.drive for model in models]
-        self._count = len(models)
-        self._step = np.array(time.physics_step)
-        self._top = np.array([top for drive in drives for top in (drive.max_speed, drive.max_turn_rate)])
-        self._ramp = Ramp.of_both(drives, time.physics_step, time.steps_per_tick)
-        self._demands, self._measured = (np.zeros(2 * self._count, dtype=complex) for _ in range(2))
-        self._demand_numbers = self._demands.view(float).reshape(self._count, _NUMBERS)[:, :3]
-        steps = time.steps_per_tick
-        self._angles = np.zeros((steps, self._count), dtype=complex)
-        """i times the heading of each robot in each physics step."""
-        self._turns = np.ones((steps, 2 * self._count), dtype=complex)
-        """The factor that turns each motion into the field frame; 1 for a turn rate."""
-        self._last_in_body: Vectors = np.zeros(2 * self._count, dtype=complex)
-        self._last_in_field: Vectors = np.zeros(2 * self._count, dtype=complex)
-        self._undisturbed: Flags = np.zeros(self._count, dtype=bool)
-        self.held_back = self._undisturbed
-        """Per robot, at the beginning of the tick: its motion is disturbed and well below its demand."""
-
-    def reset(self) -> None:
-        """Clear the memory: the next tick begins from the measured velocities."""
-        self._last_in_body = np.zeros_like(self._last_in_body)
-        self._last_in_field = np.full_like(self._last_in_field, np.inf)
-
-    def plan(self, robots: RobotStates, demands: Sequence[Drive], _bodies: Bodies) -> list[list[FieldTwist]]:
-        """The velocities of one tick, per physics step and robot; `demands` are in the body frames."""
-        twists = np.fromiter(chain.from_iterable(map(_twist, demands)), float, 3 * self._count)
-        self._demand_numbers[...] = twists.reshape(-1, 3)
-        after = self._ramp.toward(self._now(robots.motions), self._demands)
-        turn_rates = after[:, 1::2].real
-        headings = np.add.accumulate(turn_rates, axis=0)
-        headings -= turn_rates
-        headings *= self._step
-        np.add(headings, robots.motions.heading, out=self._angles.imag)
-        np.exp(self._angles, out=self._turns[:, ::2])
-        in_field = after * self._turns
-        self._last_in_body, self._last_in_field = after[-1], in_field[-1]
-        numbers = in_field.view(float).reshape(len(after), self._count, _NUMBERS)
-        planned: list[list[FieldTwist]] = numbers[..., :3].tolist()
+    def plan(self, robot: RobotState, demand: Drive) -> list[FieldTwist]:
+        """The velocity in each step of a tick."""
+        wanted, turn = self._ramp.within_limits(demand.vx, demand.vy), self._turning.within_limits(demand.omega)
+        velocity, omega = self._now(robot, wanted, turn)
+        turns, ways = self._turning.toward(omega, turn), self._ramp.toward(velocity, wanted)
+        headings = headings_of(robot.heading, turns, self._step)
+        planned: list[FieldTwist] = [
+            (*rotate(*way, heading), rate) for way, heading, rate in zip(ways, headings, turns, strict=True)
+        ]
+        self._in_body, self.last = ways[-1], planned[-1]
         return planned
 
-    def _now(self, robots: RobotMotions) -> Vectors:
-        """The motions as set, or as measured where a robot was disturbed; updates `held_back`.
+    def _now(self, robot: RobotState, wanted: Planar, wanted_turn: float) -> tuple[Planar, float]:
+        """Velocity in the body frame and turn rate, as set, or as measured where disturbed; updates `held_back`."""
+        self.held_back, last = False, self.last
+        if last is None:
+            return to_body(robot.vx, robot.vy, robot.heading), robot.omega
+        slip = slip_of(last, robot)
+        if slip is None:
+            return self._in_body, last[2]
+        self.held_back = slip.holds_back(robot, wanted, wanted_turn)
+        velocity = to_body(robot.vx, robot.vy, robot.heading) if slip.moving else self._in_body
+        return velocity, robot.omega if slip.turning else last[2]
 
-        A set velocity is constant in the turning body frame, as with wheels that keep their speeds.
-        """
-        measured = self._measured
-        measured[::2], measured[1::2] = robots.velocity, robots.omega
-        disturbed = np.abs(measured - self._last_in_field) > _UNDISTURBED
-        if True not in disturbed.tolist():
-            self.held_back = self._undisturbed
-            return self._last_in_body
-        measured[::2] *= np.exp(-1j * robots.heading)
-        motions: Vectors = np.where(disturbed, measured, self._last_in_body)
-        wanted = np.minimum(np.abs(self._demands), self._top)
-        slow = disturbed & (np.abs(motions) < SLOW_SHARE * wanted)
-        moves, turns = wanted[::2] > MIN_SPEED, wanted[1::2] > MIN_TURN_RATE
-        self.held_back = np.where(moves, slow[::2], turns & slow[1::2])
-        return motions
+
+class VelocityDrive(SetMotionDrive):
+    """The drives of some robots."""
+
+    one = _Velocity

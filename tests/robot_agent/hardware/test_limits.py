@@ -1,4 +1,4 @@
-"""The limits of one robot, against the drives of the host, which plan with arrays of robots."""
+"""The limits of a robot on hardware, against those of the drives of the host."""
 
 import math
 
@@ -10,7 +10,7 @@ from robot_agent.hardware.limits import toward, within_limits
 from schemas.config.profile import load_profile
 from schemas.config.robot_model import RobotModel
 from schemas.messages.command import Drive
-from sim_host.actuation.ramp import Ramp
+from sim_host.actuation.ramp import Ramp, TurnRamp
 from sim_host.actuation.wheels import WheelSets
 
 DEMANDS = [(0.3, 0.0, 0.0), (3.0, 3.0, 9.0), (-5.0, 1.0, -20.0), (0.1, 0.2, 40.0), (8.0, -6.0, 2.0)]
@@ -25,9 +25,8 @@ def model(profile):
 def test_a_demand_is_shortened_as_the_drive_of_the_profile_shortens_it_in_a_match(profile, demand):
     one = model(profile)
     vx, vy, omega = demand
-    move, turn = Ramp.of_moving([one.drive], 0.005, 4), Ramp.of_turning([one.drive], 0.005, 4)
-    planned = move.within_limits(np.array([complex(vx, vy)]))[0]
-    twist = np.array([[planned.real], [planned.imag], [turn.within_limits(np.array([omega]))[0]]])
+    planned = Ramp(one.drive, 0.005, 4).within_limits(vx, vy)
+    twist = np.array([*planned, TurnRamp(one.drive, 0.005, 4).within_limits(omega)]).reshape(3, 1)
     if one.drive.model == "omni":
         twist = WheelSets([one], 0.005).within_limit(twist)
     limited = within_limits(Drive(vx=vx, vy=vy, omega=omega), one)

@@ -1,6 +1,7 @@
 """The drive: limits that really limit, in the body frame, whatever the heading."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,24 +10,29 @@ from hypothesis import strategies as st
 from pytest import approx
 
 from schemas.config.profile import load_profile
-from sim_host.actuation.ramp import Ramp
+from schemas.config.robot_model import RobotModel
+from schemas.messages.command import Drive
+from sim_host.actuation.drive_model import Bodies, DriveModel
+from sim_host.actuation.ramp import Ramp, TurnRamp
+from sim_host.actuation.traction_drive import TractionDrive
+from sim_host.actuation.velocity_drive import VelocityDrive
+from sim_host.snapshot import RobotState, RobotStates
 
 MSL = load_profile("msl")
 STEP, STEPS = MSL.time.physics_step, MSL.time.steps_per_tick
-LIMITS = MSL.drive
+LIMITS, ROBOT = MSL.drive, RobotModel.standard(MSL)
 SPEED = st.floats(-8, 8)
 
 
-MOVING = Ramp.of_moving([LIMITS], STEP, STEPS)
-TURNING = Ramp.of_turning([LIMITS], STEP, STEPS)
+MOVING, TURNING = Ramp(LIMITS, STEP, STEPS), TurnRamp(LIMITS, STEP, STEPS)
 
 
-def run(now: complex, demand: complex, ticks: int) -> list[complex]:
+def run(now: complex, demand: complex, ticks: int, moving: Ramp = MOVING) -> list[complex]:
     """Velocities after each physics step of some ticks under one demand."""
-    velocities, at = [], np.array([now])
+    velocities, at = [], (now.real, now.imag)
     for _ in range(ticks):
-        planned = MOVING.toward(at, np.array([demand]))
-        velocities.extend(planned[:, 0].tolist())
+        planned = moving.toward(at, moving.within_limits(demand.real, demand.imag))
+        velocities += [complex(*velocity) for velocity in planned]
         at = planned[-1]
     return velocities
 
@@ -85,38 +91,33 @@ def test_top_speed_is_the_same_in_every_direction_of_the_body() -> None:
 @pytest.mark.parametrize(("now", "demand"), [(0.0, 3.0), (5.0, -5.0), (-2.0, 100.0)])
 def test_the_turn_rate_keeps_its_own_limits(now: float, demand: float) -> None:
     before = now
-    at = np.array([now])
     for _ in range(100):
-        rates = TURNING.toward(at, np.array([demand]))
-        for after in rates[:, 0].tolist():
+        for after in TURNING.toward(before, TURNING.within_limits(demand)):
             assert abs(after - before) <= LIMITS.turn_acceleration * STEP + 1e-9
             before = after
-        at = rates[-1]
     assert before == approx(max(-LIMITS.max_turn_rate, min(LIMITS.max_turn_rate, demand)))
 
 
-def test_robots_are_planned_each_for_itself() -> None:
+@pytest.mark.parametrize("drive", [VelocityDrive, TractionDrive])
+def test_robots_are_planned_each_for_itself(drive: type[DriveModel]) -> None:
     """In simatch all robots shared one memory."""
-    now, demand = np.array([0, 1 + 1j, -2j]), np.array([3, 0, 2j])
-    together = Ramp.of_moving([LIMITS] * 3, STEP, STEPS).toward(now, demand)
-    for one in range(3):
-        alone = MOVING.toward(now[one : one + 1], demand[one : one + 1])
-        assert together[:, one] == approx(alone[:, 0])
-
-
-def test_what_was_planned_stays_what_it_is_when_the_next_tick_is_planned() -> None:
-    shortened, first = MOVING.within_limits(np.array([100j])), MOVING.toward(np.array([0j]), np.array([3 + 0j]))
-    kept = shortened.copy(), first.copy()
-    MOVING.toward(first[-1], np.array([-3j]))
-    assert (shortened == kept[0]).all() and (first == kept[1]).all()
+    none: Any = Bodies(None, (), ())  # type: ignore[arg-type] # nothing is touched
+    states = [
+        RobotState(0, 0, 0.4, angle, *twist, False) for angle, *twist in ((0, 0, 0, 0), (1, 1, 1, 2), (2, 0, -2, 0))
+    ]
+    demands = [Drive(vx=3.0), Drive(), Drive(vy=2.0, omega=1.0)]
+    together = list(drive(MSL.time, [ROBOT] * 3).plan(RobotStates(states), demands, none))
+    for one, (state, demand) in enumerate(zip(states, demands, strict=True)):
+        alone = drive(MSL.time, [ROBOT]).plan(RobotStates([state]), [demand], none)
+        assert [step[one] for step in together] == [step[0] for step in alone]
 
 
 @pytest.mark.parametrize("step", [0.0025, 0.005, 0.01])
 def test_an_acceleration_is_the_same_in_steps_of_any_length(step: float) -> None:
     """1 m/s is reached after v / a; the paper's code took every step for 7 ms."""
-    moving = Ramp.of_moving([LIMITS], step, 1)
-    at, steps = np.array([0j]), 0
-    while at[0].real < 1 - 1e-9:
-        at = moving.toward(at, np.array([1 + 0j]))[-1]
+    moving = Ramp(LIMITS, step, 1)
+    at, steps = (0.0, 0.0), 0
+    while at[0] < 1 - 1e-9:
+        at = moving.toward(at, (1.0, 0.0))[-1]
         steps += 1
     assert steps * step == approx(1 / LIMITS.acceleration, abs=step)

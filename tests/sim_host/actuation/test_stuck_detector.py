@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from schemas.config.profile import load_profile
 from schemas.config.robot_model import RobotModel
 from schemas.messages.command import Drive
@@ -20,7 +18,7 @@ STANDS = RobotState(0, 0, 0.4, 0, 0, 0, 0, False)
 
 def update(watch: StuckDetector, indices: Sequence[int], held: Sequence[bool]) -> None:
     count = len(indices)
-    watch.update(indices, np.array(held), [STANDS] * count, [AHEAD] * count)
+    watch.update(indices, held, [STANDS] * count, [AHEAD] * count)
 
 
 def test_each_robot_has_its_own_clock() -> None:
@@ -47,13 +45,12 @@ def held(told: tuple[float, float, float], measured: tuple[float, float, float])
     bodies: Any = None  # this drive reads no bodies
     drive = VelocityDrive(MSL.time, [RobotModel.standard(MSL)] * 3)
     commands = [Drive(vx=told[0], vy=told[1], omega=told[2])] * 3
-    last = [(0.0, 0.0, 0.0)] * 3
+    last: Sequence[Sequence[float]] = [(0.0, 0.0, 0.0)] * 3
     for _ in range(50):
         moving = [last[0], measured, last[2]]
         robots = RobotStates(RobotState(0, 0, 0.4, 0, *twist, False) for twist in moving)
-        last = drive.plan(robots, commands, bodies)[-1]
-    flags: list[bool] = drive.held_back.tolist()
-    return flags
+        *_, last = drive.plan(robots, commands, bodies)
+    return list(drive.held_back)
 
 
 def test_a_robot_well_below_its_demand_is_held_back_in_driving_and_in_turning() -> None:
