@@ -19,7 +19,7 @@ GAINS = {
     "formation": (1, 8.0, 2.0),
     "free_kick": (2, 8.0, 0.15),
     "goalkeeper": (5, None, 0.3),
-    "half_field_4v5": (10, None, 0.1),
+    "half_field_4v5": (20, None, 0.1),
     "keepaway_3v2": (2, None, 3.0),
     "pass_and_shoot": (3, None, 0.3),
     "pursuit": (1, 18.5, 5.0),
