@@ -53,8 +53,12 @@ def _serve(settings: HostSettings) -> None:
     with open_host(config.name, WallClock(), listen, protection, limits) as bus, ExitStack() as announcements:
         _announce(settings, bus.endpoint, announcements)
         log.info('match "%s" on %s, pace %s, seed %d', config.name, bus.endpoint, config.pace, config.seed)
-        from sim_host.server.host import Host  # takes a second, in which clients connect
-
+        try:
+            from sim_host.server.host import Host  # takes a second, in which clients connect
+        except ModuleNotFoundError as error:
+            if error.name != "pybullet":
+                raise
+            raise TouchlineError(missing_engine_text()) from None
         host = Host(
             config,
             bus,
