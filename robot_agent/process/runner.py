@@ -150,6 +150,8 @@ class Member:
             TouchlineError: `build` cannot make the brain, there is no host, or it refuses the agent.
         """
         self.robot = robot
+        self.note = ""
+        """Logged before the reason when the brain has failed."""
         self._bus, self._patience = bus, patience
         self._membership = membership or Membership(bus, robot, None)
         self._reload, self._build = reload, reload.build if reload is not None else build
@@ -201,6 +203,8 @@ class Member:
         try:
             self.runner.answer(sight)
         except RobotError as error:
+            if self.note:
+                log_line(self.note, Level.ERROR)
             log_line(error.report(), Level.ERROR, tick=sight.tick)
             return 1 if self.runner.answered else FIRST_SIGHT_FAILED
         return None

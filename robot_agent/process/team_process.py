@@ -10,7 +10,6 @@ from collections.abc import Callable, Sequence
 from robot_agent.process.runner import Member
 from robot_agent.process.timing import IDLE_S
 from runtime.bus.contract import Bus, Subscription
-from runtime.process.process_log import Level, log_line
 from schemas.topics import SIGHT
 
 
@@ -36,6 +35,7 @@ def serve_team(
             members |= ready
             waiting = [robot for robot in waiting if SIGHT.fill(robot=robot) not in members]
             for one in ready.values():
+                one.note = f"{one.robot} has failed, and with it the process of its team"
                 one.join()
             gc.collect()
             gc.freeze()
@@ -45,7 +45,5 @@ def serve_team(
             one = members[key]
             status = one.go_on(one.runner.read(received.payload) if received is not None else None)
             if status is not None:
-                if status:
-                    log_line(f"{one.robot} has failed, and with it the process of its team", Level.ERROR)
                 return status
     return 0
