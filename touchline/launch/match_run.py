@@ -64,7 +64,7 @@ class MatchRun:
         self._screen = screen
         self._clock = clock
         self._check = check
-        self._has_clients = self._is_recorder_dismissed = False
+        self._has_clients = self._is_recorder_dismissed = self._is_over = False
         self._names = TeamNames.of_match(plan.config)
         self._remote = RemoteTeams(plan.config)
         self._match_screen = MatchScreen(plan, screen, self._remote, clock)
@@ -156,6 +156,7 @@ class MatchRun:
             follower = MatchFollower(bus)
             while self._poll_processes(stop):
                 self._match_screen.update(follower)
+                self._is_over = follower.finished
                 self._clock.sleep_until(self._clock.now() + POLL_S)
             deadline = self._clock.now() + PARTING_S
             while self._is_ending(stop) and bus.connected() and self._clock.now() < deadline:
@@ -202,7 +203,9 @@ class MatchRun:
         return stop.received is None and self._supervisor.host_status is not None
 
     def _empty_side(self) -> Side | None:
-        """A side of which no robot is left, or has come; None while both play."""
+        """A side of which no robot is left, or has come; None while both play, and after full time."""
+        if self._is_over:
+            return None  # robots may give up a host that takes long to end
         if self._remote.absent is not None:
             return self._remote.absent
         processes = {side: [*self._plan.config.processes(side)] for side in Side}

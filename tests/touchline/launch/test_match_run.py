@@ -61,13 +61,26 @@ for progress in play(*sys.argv[1:], Phase.FULL_TIME):
     print(received.chunks["name"], "leaves", file=sys.stderr)
 """
 WRONG = "import sys; sys.stderr.write('pybullet says hello\\ntouchline: profile is odd; mend it\\n'); sys.exit(2)"
+ENDS_LATE = f"""{HOST}
+for _ in play(*sys.argv[1:], Phase.FULL_TIME):
+    while not pathlib.Path(sys.argv[2]).with_name("left").exists():
+        signal.sigtimedwait((), 0.02)
+"""
 RESTS = "import signal; signal.pause()"
+LEAVES_AT_FULL_TIME = """
+import pathlib, signal
+while not pathlib.Path("over").exists():
+    signal.sigtimedwait((), 0.02)
+"""
 CRASHES = "import sys; sys.exit('brain raised')"
 RECORDS = "import pathlib, sys; pathlib.Path(sys.argv[1]).write_bytes(b'recorded')"
 
 
 class WatchedScreen(Screen):
-    """Leaves a file for the host when play is seen and `awaited` was printed, so that its next lines come in time."""
+    """Leaves files for the programs, so that what they do next comes in time.
+
+    `seen`: play is seen, and `awaited` was printed; `over`: full time is seen; `left`: after that, a robot's end.
+    """
 
     def __init__(self, words: io.StringIO, clock: WallClock, seen: Path, awaited: str) -> None:
         super().__init__(words, clock)
@@ -79,6 +92,10 @@ class WatchedScreen(Screen):
         super().status(line)
         if "  play" in line and self._awaited in self._words.getvalue():
             self._seen.touch()
+        if "  full time" in line:
+            self._seen.with_name("over").touch()
+            if "cyan1 ended with status 0" in self._words.getvalue():
+                self._seen.with_name("left").touch()
 
 
 class Stage:
@@ -145,6 +162,16 @@ def test_a_match_ends_when_a_side_has_no_robot_left_with_the_reason(stage: Stage
     with pytest.raises(MatchFailedError, match=reason):
         match.play(awaited="what is never shown")
     assert "cyan1 ended with status 1; not started again" in match.words.getvalue()
+
+
+def test_robots_that_leave_after_full_time_before_their_host_ends_end_no_match(
+    stage: Staged, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """A host that waits for links with unsent data takes as long to end as its robots' patience lasts."""
+    monkeypatch.chdir(tmp_path)
+    match = stage(ENDS_LATE, agent=LEAVES_AT_FULL_TIME, **{"teams.cyan.size": 1})
+    assert match.play().state.score.cyan == 1
+    assert (tmp_path / "left").exists()
 
 
 def test_the_error_of_a_host_with_wrong_input_is_shown_unchanged(stage: Staged) -> None:
