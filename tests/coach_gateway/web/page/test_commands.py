@@ -71,8 +71,20 @@ def test_cards_are_for_the_robot_that_is_chosen(match, visit) -> None:
     match.until(lambda: "magenta2" in match.state.robots and match.state.robots["magenta2"].yellow == 1)
 
 
-def test_a_proposal_is_confirmed_or_overruled(match_of, visit) -> None:
-    match = match_of(still=True, referee={"mode": "mixed", "proposal": 60.0})
+PATIENT = """
+extends = "friendly"
+version = 1
+
+[stall]
+still_duration = { value = 120, unit = "s", origin = "for tests" }
+progress_duration = { value = 120, unit = "s", origin = "for tests" }
+"""
+"""A ball that lies still while a busy machine opens the page's settings is no proposal."""
+
+
+def test_a_proposal_is_confirmed_or_overruled(match_of, visit, tmp_path) -> None:
+    (tmp_path / "patient.toml").write_text(PATIENT)
+    match = match_of(still=True, rules=str(tmp_path / "patient.toml"), referee={"mode": "mixed", "proposal": 60.0})
     tab = visit(match, "referee")
     match.until(lambda: match.state.phase is not Phase.PRE_GAME)
     tab.press("drop_ball")
