@@ -69,9 +69,10 @@ AT_ONCE = (
     EndStep(0.0, frozenset({ProcessKind.HOST}), signal.SIGTERM),
     EndStep(HOST_ENDS_S, _RECONNECTING, signal.SIGTERM),
     EndStep(2 * HOST_ENDS_S, frozenset({ProcessKind.RECORDER}), signal.SIGTERM),
-    EndStep(2 * HOST_ENDS_S + PROGRAM_ENDS_S, _ALL, signal.SIGKILL),
+    EndStep(2 * HOST_ENDS_S + PROGRAM_ENDS_S, _ALL, signal.SIGKILL, is_work=True),
 )
-"""Interrupted: the host ends first, the recorder has most of the time to finish its file; within two seconds in all."""
+"""Interrupted: the host ends first, the recorder has most of the time to finish its file; within two seconds in all, in
+which waits for a core do not count."""
 
 _LEFT_EARLY = "ended with status 0 before the match was over; a robot's program runs until it receives SIGTERM"
 

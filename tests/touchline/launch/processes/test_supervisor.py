@@ -338,6 +338,14 @@ def test_whoever_does_not_listen_is_killed_within_two_seconds() -> None:
     assert stage.clock.now() < 2.0
 
 
+def test_at_once_a_recorder_is_not_killed_while_it_waits_for_a_core() -> None:
+    stage = Stage(deaf_to=frozenset({signal.SIGTERM}))
+    recorder = stage.cast["recorder"][-1]
+    recorder.has_core = False
+    stage.supervisor.end(AT_ONCE, should_abort=lambda: stage.clock.now() > 10.0)
+    assert recorder.ended is None and recorder.heard
+
+
 def test_after_the_match_a_recorder_has_time_to_finish_while_agents_are_sent_away() -> None:
     stage = Stage(deaf_to=frozenset({signal.SIGTERM}))
     stage.end("host", 0)
