@@ -25,6 +25,8 @@ class Ramp:
         self._reach = [(drive.acceleration * time, drive.deceleration * time) for time in elapsed]
         """Per step: the speed that is gained at most, and lost at most, since the tick began, in m/s."""
         self._spent = drive.acceleration / drive.deceleration - 1.0
+        self._bound = min if drive.acceleration <= drive.deceleration else max
+        """Of both ways, the one that counts: the first until the speed is lost, then the second."""
 
     def within_limits(self, x: float, y: float) -> Planar:
         """A demanded velocity, scaled down to top speed."""
@@ -43,7 +45,7 @@ class Ramp:
             return [demand] * len(self._reach)
         along_x, along_y = (x - now_x) / change, (y - now_y) / change
         against = self._spent * min(0.0, now_x * along_x + now_y * along_y)
-        reached = [min(lost, gained + against) for gained, lost in self._reach]
+        reached = [self._bound(lost, gained + against) for gained, lost in self._reach]
         return [demand if size >= change else (now_x + size * along_x, now_y + size * along_y) for size in reached]
 
 

@@ -1,5 +1,6 @@
 """The drive: limits that really limit, in the body frame, whatever the heading."""
 
+import dataclasses
 import math
 from typing import Any
 
@@ -60,6 +61,15 @@ def test_turning_round_loses_speed_at_one_limit_and_gains_it_at_the_other() -> N
     velocities = run(2, -2, 100)
     there = next(step for step, v in enumerate(velocities, 1) if v.real <= -2 + 1e-9)
     assert there * STEP == approx(2 / LIMITS.deceleration + 2 / LIMITS.acceleration, abs=2 * STEP)
+
+
+def test_a_drive_that_gains_speed_faster_than_it_loses_it_keeps_both_limits() -> None:
+    moving = Ramp(dataclasses.replace(LIMITS, acceleration=4.0, deceleration=2.0), STEP, STEPS)
+    velocities = run(2, -2, 200, moving)
+    rests = next(step for step, v in enumerate(velocities, 1) if v.real <= 0)
+    there = next(step for step, v in enumerate(velocities, 1) if v.real <= -2 + 1e-9)
+    assert max(v.real for v in velocities) < 2
+    assert (rests * STEP, there * STEP) == (approx(2 / 2.0, abs=2 * STEP), approx(2 / 2.0 + 2 / 4.0, abs=2 * STEP))
 
 
 @given(SPEED, SPEED)
