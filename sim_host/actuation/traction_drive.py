@@ -14,7 +14,7 @@ from schemas.config.sections import TimeSteps
 from schemas.frames import rotate
 from schemas.messages.command import Drive
 from sim_host.actuation.drive_model import Bodies, Plan
-from sim_host.actuation.grip import Grip, accelerations
+from sim_host.actuation.grip import Grip
 from sim_host.actuation.ramp import Planar
 from sim_host.actuation.set_motion import SetMotion, SetMotionDrive, slip_of
 from sim_host.physics.vectors import FieldTwist
@@ -32,7 +32,7 @@ class _Traction(SetMotion):
         step = time.physics_step
         self._half_step = step / 2
         self._elapsed = [step * number for number in range(1, time.steps_per_tick + 1)]
-        self._per_gain, self._per_grip = 1.0 / model.drive.acceleration, 1.0 / accelerations(model)[0]
+        self._per_gain, self._per_grip = 1.0 / model.drive.acceleration, 1.0 / model.drive.deceleration
         self._lead, self._turn_lead = Grip([model], step).changes[0]
 
     def plan(self, robot: RobotState, demand: Drive) -> list[FieldTwist]:

@@ -23,6 +23,7 @@ MSL = load_profile("msl")
 STEP, STEPS = MSL.time.physics_step, MSL.time.steps_per_tick
 LIMITS, ROBOT = MSL.drive, RobotModel.standard(MSL)
 SPEED = st.floats(-8, 8)
+NOTHING_TOUCHED: Any = Bodies(None, (), ())  # type: ignore[arg-type]
 
 
 MOVING, TURNING = Ramp(LIMITS, STEP, STEPS), TurnRamp(LIMITS, STEP, STEPS)
@@ -111,15 +112,26 @@ def test_the_turn_rate_keeps_its_own_limits(now: float, demand: float) -> None:
 @pytest.mark.parametrize("drive", [VelocityDrive, TractionDrive])
 def test_robots_are_planned_each_for_itself(drive: type[DriveModel]) -> None:
     """In simatch all robots shared one memory."""
-    none: Any = Bodies(None, (), ())  # type: ignore[arg-type] # nothing is touched
     states = [
         RobotState(0, 0, 0.4, angle, *twist, False) for angle, *twist in ((0, 0, 0, 0), (1, 1, 1, 2), (2, 0, -2, 0))
     ]
     demands = [Drive(vx=3.0), Drive(), Drive(vy=2.0, omega=1.0)]
-    together = list(drive(MSL.time, [ROBOT] * 3).plan(RobotStates(states), demands, none))
+    together = list(drive(MSL.time, [ROBOT] * 3).plan(RobotStates(states), demands, NOTHING_TOUCHED))
     for one, (state, demand) in enumerate(zip(states, demands, strict=True)):
-        alone = drive(MSL.time, [ROBOT]).plan(RobotStates([state]), [demand], none)
+        alone = drive(MSL.time, [ROBOT]).plan(RobotStates([state]), [demand], NOTHING_TOUCHED)
         assert [step[one] for step in together] == [step[0] for step in alone]
+
+
+@pytest.mark.parametrize("drive", [VelocityDrive, TractionDrive])
+@pytest.mark.parametrize(("acceleration", "deceleration"), [(2.0, 4.0), (4.0, 2.0)])
+def test_a_robot_in_motion_brakes_at_the_deceleration(
+    drive: type[DriveModel], acceleration: float, deceleration: float
+) -> None:
+    limits = dataclasses.replace(LIMITS, acceleration=acceleration, deceleration=deceleration)
+    planned = drive(MSL.time, [dataclasses.replace(ROBOT, drive=limits)]).plan(
+        RobotStates([RobotState(0, 0, 0.4, 0, 2, 0, 0, False)]), [Drive(vx=-2.0)], NOTHING_TOUCHED
+    )
+    assert list(planned)[-1][0][0] == approx(2 - deceleration * MSL.time.tick)
 
 
 @pytest.mark.parametrize("step", [0.0025, 0.005, 0.01])
