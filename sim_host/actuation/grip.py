@@ -5,37 +5,35 @@ step, its measured velocity and a change toward the planned one that its wheels 
 """
 
 import math
-from collections.abc import Sequence
+from typing import NamedTuple, Self
 
 from schemas.config.robot_model import RobotModel
 from sim_host.physics.vectors import FieldTwist
 
 
-def accelerations(model: RobotModel) -> tuple[float, float]:
-    """The greatest acceleration of a robot by the grip of its wheels, m/s², and its greatest turn acceleration, rad/s².
+class Grip(NamedTuple):
+    """The grip of one robot: by how much its motion changes in one physics step at most."""
 
-    The same force, at the arm of the wheels, turns the robot.
-    """
-    drive, body = model.drive, model.body
-    grip = max(drive.acceleration, drive.deceleration)
-    return grip, max(drive.turn_acceleration, body.mass * grip * model.wheels.arm / body.inertia_zz)
+    change: float
+    """Of its velocity, m/s."""
+    turn_change: float
+    """Of its turn rate, rad/s; at least that of the same force at the arm of the wheels."""
 
+    @classmethod
+    def of(cls, model: RobotModel, step: float) -> Self:
+        """The grip of a model; `step` is the physics step in s."""
+        drive, body = model.drive, model.body
+        grip = max(drive.acceleration, drive.deceleration)
+        turn_grip = max(drive.turn_acceleration, body.mass * grip * model.wheels.arm / body.inertia_zz)
+        return cls(grip * step, turn_grip * step)
 
-class Grip:
-    """The grip of some robots."""
-
-    def __init__(self, models: Sequence[RobotModel], step: float) -> None:
-        """`step` is the physics step in s."""
-        self.changes = [(grip * step, turn_grip * step) for grip, turn_grip in map(accelerations, models)]
-        """Per robot: the greatest change of its velocity, m/s, and of its turn rate, rad/s, in one step."""
-
-    def limited(self, robot: int, planned: FieldTwist, measured: FieldTwist) -> FieldTwist:
-        """The motion nearest to the planned one that the robot's grip can make of the measured one in a step."""
-        most, most_turn = self.changes[robot]
+    def limited(self, planned: FieldTwist, measured: FieldTwist) -> FieldTwist:
+        """The motion nearest to the planned one that the grip can make of the measured one in a step."""
         (vx, vy, omega), (now_x, now_y, now_omega) = planned, measured
         dx, dy, turn = vx - now_x, vy - now_y, omega - now_omega
         change = math.hypot(dx, dy)
-        if change <= most and abs(turn) <= most_turn:
+        if change <= self.change and abs(turn) <= self.turn_change:
             return planned
-        share = min(1.0, most / max(change, most))
-        return [now_x + share * dx, now_y + share * dy, now_omega + max(-most_turn, min(most_turn, turn))]
+        share = self.change / max(change, self.change)
+        turn = max(-self.turn_change, min(self.turn_change, turn))
+        return [now_x + share * dx, now_y + share * dy, now_omega + turn]

@@ -7,7 +7,6 @@ The loops are plain Python: for ten robots they take less time than numpy, and n
 """
 
 import math
-from collections.abc import Sequence
 
 from schemas.config.sections import DriveLimits
 
@@ -67,12 +66,3 @@ class TurnRamp:
         if demand >= now:
             return [demand if now + most > demand else now + most for most in self._reach]
         return [demand if now - most < demand else now - most for most in self._reach]
-
-
-def headings_of(heading: float, turn_rates: Sequence[float], step: float) -> list[float]:
-    """The heading in rad at which each step begins, from that of the tick; `step` in s."""
-    found = []
-    for rate in turn_rates:
-        found.append(heading)
-        heading += rate * step
-    return found

@@ -6,7 +6,7 @@ The measured motion differs from that one where something disturbed the robot, o
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import ClassVar, NamedTuple
+from typing import Generic, NamedTuple, TypeVar
 
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import TimeSteps
@@ -62,10 +62,13 @@ class SetMotion(ABC):
         """The velocity in each step of a tick; updates `held_back`. The demand is in the body frame."""
 
 
-class SetMotionDrive(DriveModel):
+One = TypeVar("One", bound=SetMotion)
+
+
+class SetMotionDrive(DriveModel, Generic[One]):
     """The drives of some robots, each with its own memory."""
 
-    one: ClassVar[type[SetMotion]]
+    one: type[One]
     """What each robot is driven by."""
 
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:

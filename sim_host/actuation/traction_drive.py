@@ -33,7 +33,7 @@ class _Traction(SetMotion):
         self._half_step = step / 2
         self._elapsed = [step * number for number in range(1, time.steps_per_tick + 1)]
         self._per_gain, self._per_grip = 1.0 / model.drive.acceleration, 1.0 / model.drive.deceleration
-        self._lead, self._turn_lead = Grip([model], step).changes[0]
+        self.grip = Grip.of(model, step)
 
     def plan(self, robot: RobotState, demand: Drive) -> list[FieldTwist]:
         """The velocity in each step of a tick. The demanded direction is taken at the heading halfway through it."""
@@ -62,10 +62,11 @@ class _Traction(SetMotion):
         self.held_back = slip.holds_back(robot, wanted, wanted_turn)
         vx, vy, omega = last
         if slip.moving:
-            lead = self._lead / max(slip.moving, self._lead)
+            lead = self.grip.change / max(slip.moving, self.grip.change)
             vx, vy = robot.vx + (vx - robot.vx) * lead, robot.vy + (vy - robot.vy) * lead
         if slip.turning:
-            omega = robot.omega + (omega - robot.omega) * (self._turn_lead / max(slip.turning, self._turn_lead))
+            lead = self.grip.turn_change / max(slip.turning, self.grip.turn_change)
+            omega = robot.omega + (omega - robot.omega) * lead
         return vx, vy, omega
 
     def _toward(self, now: Planar, target: Planar) -> list[Planar]:
@@ -85,15 +86,11 @@ class _Traction(SetMotion):
         return [target if share >= 1.0 else (vx + share * dx, vy + share * dy) for share in shares]
 
 
-class TractionDrive(SetMotionDrive):
+class TractionDrive(SetMotionDrive[_Traction]):
     """The drives of some robots."""
 
     yields = True
     one = _Traction
-
-    def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:
-        super().__init__(time, models)
-        self._grip = Grip(models, time.physics_step)
 
     def plan(self, robots: RobotStates, demands: Sequence[Drive], bodies: Bodies) -> Plan:
         """The velocities of one tick; robots that may touch something yield to what is stronger than their grip."""
@@ -102,11 +99,10 @@ class TractionDrive(SetMotionDrive):
 
     def _yielding(self, planned: Plan, bodies: Bodies) -> Iterator[list[FieldTwist]]:
         """The same plan, in which robots that may touch something change their motions by their grip at most."""
-        engine = bodies.engine
-        touching = [(robot, place) for robot, place in enumerate(bodies.indices) if place in bodies.touching]
+        places = [place for place, index in enumerate(bodies.indices) if index in bodies.touching]
         for step in planned:
             twists = list(step)
-            for robot, place in touching:
-                twist = self._grip.limited(robot, twists[robot], engine.robot_twist(place))
-                twists[robot] = self.robots[robot].last = twist
+            for place in places:
+                robot, measured = self.robots[place], bodies.engine.robot_twist(bodies.indices[place])
+                twists[place] = robot.last = robot.grip.limited(twists[place], measured)
             yield twists

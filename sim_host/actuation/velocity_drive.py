@@ -4,7 +4,7 @@ from schemas.config.robot_model import RobotModel
 from schemas.config.sections import TimeSteps
 from schemas.frames import rotate, to_body
 from schemas.messages.command import Drive
-from sim_host.actuation.ramp import Planar, headings_of
+from sim_host.actuation.ramp import Planar
 from sim_host.actuation.set_motion import SetMotion, SetMotionDrive, slip_of
 from sim_host.physics.vectors import FieldTwist
 from sim_host.snapshot import RobotState
@@ -24,10 +24,11 @@ class _Velocity(SetMotion):
         wanted, turn = self._ramp.within_limits(demand.vx, demand.vy), self._turning.within_limits(demand.omega)
         velocity, omega = self._now(robot, wanted, turn)
         turns, ways = self._turning.toward(omega, turn), self._ramp.toward(velocity, wanted)
-        headings = headings_of(robot.heading, turns, self._step)
-        planned: list[FieldTwist] = [
-            (*rotate(*way, heading), rate) for way, heading, rate in zip(ways, headings, turns, strict=True)
-        ]
+        planned: list[FieldTwist] = []
+        heading = robot.heading
+        for way, rate in zip(ways, turns, strict=True):
+            planned.append((*rotate(*way, heading), rate))
+            heading += rate * self._step
         self._in_body, self.last = ways[-1], planned[-1]
         return planned
 
@@ -44,7 +45,7 @@ class _Velocity(SetMotion):
         return velocity, robot.omega if slip.turning else last[2]
 
 
-class VelocityDrive(SetMotionDrive):
+class VelocityDrive(SetMotionDrive[_Velocity]):
     """The drives of some robots."""
 
     one = _Velocity
