@@ -168,7 +168,7 @@ class HardwareGuard:
             filtered=self._filtered,
             reason=self._reason[:MAX_FAULT],
             devices=self._checks.health(self.time),
-            calls={name: call.health() for name, call in self._calls.items()},
+            calls={name: call.health() for name, call in self._calls.copy().items()},  # the other thread may add one
         )
 
     def _fall_back(self) -> None:
@@ -232,8 +232,9 @@ class HardwareGuard:
             finally:
                 self._in_call = None
                 took = self._clock.now() - began
-                call = self._calls.setdefault(name, _Call())
+                call = self._calls.get(name, _Call())
                 call.add(took, self.settings.deadline if name in _TIMED else math.inf)
+                self._calls[name] = call
                 if took > self.settings.deadline and name in _TIMED:
                     self._report(f"{name} takes longer than its deadline of {1e3 * self.settings.deadline:g} ms")
 

@@ -5,11 +5,12 @@ from itertools import pairwise
 import pytest
 from pytest import approx
 
+from robot_agent.hardware import guard
 from robot_agent.hardware.contract import SensorReadings
 from robot_agent.hardware.dummy import Dummy
 from robot_agent.hardware.guard import HardwareError
 from schemas.messages.command import Command, Drive, Kick, KickMode
-from schemas.messages.hardware import Fallback, HardwareState
+from schemas.messages.hardware import CallHealth, Fallback, HardwareState
 from schemas.messages.radio import Motion
 from support.messages import make_setup
 
@@ -36,6 +37,19 @@ def test_armed_hardware_is_configured_activated_and_at_the_end_deactivated_and_c
     one.guard.stop()
     assert one.hardware.calls == ["configure", "activate", "deactivate", "close"]
     assert one.guard.state is HardwareState.UNCONFIGURED
+
+
+def test_figures_are_read_while_the_other_thread_makes_its_first_call(bench, monkeypatch):
+    one = bench()
+    one.guard.start()
+
+    def figures(**numbers):
+        one.guard.watch()
+        return CallHealth(**numbers)
+
+    monkeypatch.setattr(guard, "CallHealth", figures)
+    assert {*one.guard.health().calls} == {"configure", "activate"}
+    assert "actuate" in one.guard.health().calls
 
 
 @pytest.mark.parametrize("pause", [0.0, 5.0])
