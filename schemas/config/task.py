@@ -122,8 +122,7 @@ def with_program(content: dict[str, Any], where: str, folders: Iterable[Path]) -
         raise TouchlineError(f'{where}: task.program is not for match files; write task.score = "module:function"')
     module, _, name = score.partition(":")
     file = _file_of(module, f'{where}: task.score is "{score}"', folders)
-    program = file.read_text("utf-8")
-    names = _names_in(program, file, f'{where}: task.score is "{score}"')
+    program, names = _read(file, f'{where}: task.score is "{score}"')
     if name not in names:
         hint = did_you_mean(name, names) if names else "it defines none"
         raise TouchlineError(f'{where}: task.score is "{score}"; {file} has no function {name}; {hint}')
@@ -139,11 +138,13 @@ def _file_of(module: str, fault: str, folders: Iterable[Path]) -> Path:
     raise TouchlineError(f"{fault}; there is no {stem} in {' or '.join(map(str, folders))}; put its file there")
 
 
-def _names_in(program: str, file: Path, fault: str) -> list[str]:
-    """The functions that a module defines."""
+def _read(file: Path, fault: str) -> tuple[str, list[str]]:
+    """The text of a module, and the functions that it defines."""
     try:
+        program = file.read_text("utf-8")
         tree = ast.parse(program)
-    except (SyntaxError, ValueError) as error:
-        line = f", line {error.lineno}" if isinstance(error, SyntaxError) else ""
-        raise TouchlineError(f"{fault}; {error.args[0]} ({file}{line})") from None
-    return [node.name for node in tree.body if isinstance(node, ast.FunctionDef)]
+    except SyntaxError as error:
+        raise TouchlineError(f"{fault}; {error.msg} ({file}, line {error.lineno})") from None
+    except ValueError as error:  # other bytes than those of a text
+        raise TouchlineError(f"{fault}; {error} ({file})") from None
+    return program, [node.name for node in tree.body if isinstance(node, ast.FunctionDef)]

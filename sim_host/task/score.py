@@ -125,6 +125,11 @@ def call_score(task: TaskConfig, function: ScoreFunction, now: Moment) -> Score:
                 f'task.score is "{task.score}"; at tick {now.tick} it returned {number!r}; '
                 "return a finite number, or a Score with one"
             )
+    if isinstance(score.events, str):
+        raise TouchlineError(
+            f'task.score is "{task.score}"; at tick {now.tick} its events are {score.events!r}; '
+            "return a list of sentences"
+        )
     return score
 
 

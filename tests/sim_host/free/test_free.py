@@ -228,6 +228,13 @@ def test_a_fault_of_the_match_file_is_one_line_with_its_place(
     assert "\n" not in str(raised.value) and "task.toml" in str(raised.value)
 
 
+def test_a_score_in_another_encoding_is_one_line_with_its_file(tmp_path: Path) -> None:
+    (tmp_path / "task.toml").write_text('[task]\nscore = "tally:count"\n')
+    (tmp_path / "tally.py").write_bytes("# café\n".encode("latin-1"))
+    with pytest.raises(TouchlineError, match=r"task.toml: task.score is .* can't decode byte 0xe9 .*tally.py"):
+        load_match(tmp_path / "task.toml")
+
+
 RUNTIME = {
     "raises": (
         "return 1 / (now.tick - 3)",
@@ -235,6 +242,10 @@ RUNTIME = {
     ),
     "NaN": ("return float('nan')", "at tick 1 it returned nan; return a finite number, or a Score"),
     "a text": ("return 'good'", "at tick 1 it returned 'good'"),
+    "events that are a text": (
+        "import touchline; return touchline.Score(1.0, events='box 2 is delivered')",
+        "at tick 1 its events are 'box 2 is delivered'; return a list of sentences",
+    ),
     "a memory that is no JSON": (
         "import touchline; return touchline.Score(1.0, memory=now)",
         "its memory is no JSON: Object of type Moment",
