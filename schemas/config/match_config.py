@@ -5,6 +5,7 @@ is self-contained.
 """
 
 from collections.abc import Callable, Sequence
+from copy import deepcopy
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -264,7 +265,7 @@ def load_match(path: Path | str | None, overrides: dict[str, Any] | None = None)
     folders = [Path(path).parent if path is not None else Path(), Path()]
     content = with_files(read_tables(Path(path), "a match file"), folders[0]) if path is not None else {}
     for key, value in (overrides or {}).items():
-        _set_at_path(content, key.split("."), value)
+        _set_at_path(content, key.split("."), deepcopy(value))
         if value is True and key in _REMOTE_KEYS:
             _drop_program(content["teams"], _REMOTE_KEYS[key])
     content = with_program(_with_number_files(_with_scene(content), where), where, folders)

@@ -87,6 +87,12 @@ def test_a_match_file_that_is_not_there_is_named(tmp_path: Path) -> None:
         load_match(tmp_path / "none.toml")
 
 
+def test_the_values_of_overrides_are_left_as_they_are() -> None:
+    overrides = {"teams.cyan": {"size": 2}, "teams.cyan.size": 3}
+    assert load_match(None, overrides).team(Side.CYAN).size == 3
+    assert overrides["teams.cyan"] == {"size": 2}
+
+
 def test_flags_override_the_file_by_the_same_names(tmp_path: Path) -> None:
     path = tmp_path / "cup.toml"
     path.write_text('seed = 3\npace = "realtime"\n[teams.cyan]\nname = "Reds"\nsize = 2\n')
