@@ -9,6 +9,8 @@ from scipy import special
 LEVEL = 0.95
 """Share of intervals that contain the true value."""
 _Z = float(special.ndtri((1 + LEVEL) / 2))
+_ROUNDING = 1e-12
+"""Share of all counts up to which a deviation is one of rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,17 +53,18 @@ def share(successes: float, trials: int) -> Estimate | None:
 def ratio(counts: Sequence[float], sizes: Sequence[float], most: float = math.inf) -> Estimate | None:
     """Sum of the counts, none below 0, by sum of the sizes, for example goals by minutes, over independent samples.
 
-    The interval is the ratio estimator's: the samples' deviations from the common ratio, and Student's t.
-    `most` is the greatest possible value, 1 for a share. None if the sizes add up to 0.
+    The interval is the ratio estimator's: the samples' deviations from the common ratio, and Student's t; none for
+    fewer than two samples, or equal ratios. `most` is the greatest possible value, 1 for a share. None if the sizes add
+    up to 0.
     """
     size, number = sum(sizes), len(sizes)
     if size <= 0:
         return None
     value = sum(counts) / size
-    if number < 2:
+    deviations = [count - value * one for count, one in zip(counts, sizes, strict=True)]
+    if number < 2 or max(map(abs, deviations)) <= _ROUNDING * sum(counts):
         return Estimate(value)
-    squares = sum((count - value * one) ** 2 for count, one in zip(counts, sizes, strict=True))
-    error = math.sqrt(squares * number / (number - 1)) / size
+    error = math.sqrt(sum(one**2 for one in deviations) * number / (number - 1)) / size
     half = student_t(number - 1) * error
     return Estimate(value, max(0.0, value - half), min(most, value + half))
 

@@ -55,6 +55,13 @@ def test_one_sample_has_no_interval_and_no_time_no_value() -> None:
     assert ratio([0.0], [0.0]) is None
 
 
+@pytest.mark.parametrize("counts", [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]])
+def test_equal_ratios_have_no_interval(counts: list[float]) -> None:
+    found = ratio(counts, [600.02, 1200.04, 1800.06])
+    assert found is not None
+    assert (found.value, found.low, found.high) == (approx(counts[0] / 600.02), None, None)
+
+
 def test_a_mean_has_the_interval_of_student() -> None:
     found = mean([1.0, -2.0, 4.0])
     assert found is not None
