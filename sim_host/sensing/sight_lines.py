@@ -13,7 +13,7 @@ Indices = NDArray[np.intp]
 
 _EYE = np.array(0.0)
 """m; along a line."""
-_LEAST = 1e-9
+_LEAST = 1e-12
 """m; the smallest component of a line along a side of a box, to avoid a division by zero."""
 
 
@@ -36,11 +36,17 @@ def through_boxes(places: Vectors, centres: Vectors, headings: Vectors, halves: 
     pairs on the first axis.
     """
     back = headings.conj()
-    eye, way = -back * centres, back * places
-    eye_parts = np.stack((eye.real, eye.imag))
-    way_parts = np.stack((way.real, way.imag))
-    way_parts = np.where(np.abs(way_parts) < _LEAST, _LEAST, way_parts)
-    one, other = (-halves - eye_parts) / way_parts, (halves - eye_parts) / way_parts
-    enters, leaves = np.minimum(one, other).max(axis=0), np.maximum(one, other).min(axis=0)
+    enters, leaves = box_crossings(-back * centres, back * places, halves)
     found: Flags = (enters < leaves) & (leaves > 0.0) & (enters < 1.0)
     return found
+
+
+def box_crossings(eyes: Vectors, ways: Vectors, halves: Floats) -> tuple[Floats, Floats]:
+    """Where lines from some eyes enter boxes and leave them, in units of `ways`; one that misses leaves first.
+
+    `eyes` and `ways` are in the frames of the boxes, from their centres; `halves` as in `through_boxes`.
+    """
+    places, steps = np.stack((eyes.real, eyes.imag)), np.stack((ways.real, ways.imag))
+    steps = np.where(np.abs(steps) < _LEAST, _LEAST, steps)
+    one, other = (-halves - places) / steps, (halves - places) / steps
+    return np.minimum(one, other).max(axis=0), np.maximum(one, other).min(axis=0)

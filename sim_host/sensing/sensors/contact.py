@@ -12,6 +12,7 @@ from schemas.config.sensors.table import Reading
 from sim_host.sensing.random_streams import Floats
 from sim_host.sensing.sensors.carried import Carried
 from sim_host.sensing.sensors.range import ComputedRange
+from sim_host.sensing.sight_lines import box_crossings
 from sim_host.snapshot import Snapshot
 
 _BEAMS = 128
@@ -45,8 +46,6 @@ def _outline(body: RobotBody, bearings: Floats) -> Floats:
     """Distance in m from the axis to the outline of the hull and its frame at these bearings from the kick axis."""
     if not body.frame_width:
         return np.full(len(bearings), body.radius)
-    x, y, back, half = np.cos(bearings), np.sin(bearings), body.radius - body.frame_depth, body.frame_width / 2
-    with np.errstate(divide="ignore"):
-        one, other = np.stack((back / x, -half / y)), np.stack((body.radius / x, half / y))
-    enters, leaves = np.minimum(one, other).max(axis=0), np.maximum(one, other).min(axis=0)
+    halves = np.array([[body.frame_depth], [body.frame_width]]) / 2
+    enters, leaves = box_crossings(halves[0] - body.radius + 0j, np.exp(1j * bearings), halves)
     return np.where(enters < leaves, np.maximum(leaves, body.radius), body.radius)

@@ -7,10 +7,9 @@ from schemas.config.obstacle import Shape
 from schemas.config.sensors.range import RangeFinder
 from sim_host.sensing.random_streams import Floats, Vectors
 from sim_host.sensing.sensors.carried import Carried
+from sim_host.sensing.sight_lines import box_crossings
 from sim_host.snapshot import ObstacleState, Snapshot
 
-_LEAST = 1e-12
-"""m; smallest component of a beam along a side of a box, to avoid a division by zero."""
 _NOBODY = -1
 
 
@@ -93,12 +92,7 @@ class Shapes:
 
     def _to_boxes(self, shape: NDArray[np.intp], away: Vectors, ways: Vectors) -> Floats:
         back = self.axis[shape].conj()
-        eye, way = -away * back, ways * back
-        places, steps = np.stack((eye.real, eye.imag)), np.stack((way.real, way.imag))
-        steps = np.where(np.abs(steps) < _LEAST, _LEAST, steps)
-        halves = self.halves[:, shape]
-        one, other = (-halves - places) / steps, (halves - places) / steps
-        enters, leaves = np.minimum(one, other).max(axis=0), np.maximum(one, other).min(axis=0)
+        enters, leaves = box_crossings(-away * back, ways * back, self.halves[:, shape])
         misses = (enters > leaves) | (leaves < 0.0)
         found: Floats = np.where(misses, np.inf, np.maximum(enters, 0.0))
         return found
