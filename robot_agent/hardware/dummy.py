@@ -1,11 +1,10 @@
 """Hardware for tests: an ideal body in memory, with faults on demand."""
 
-import math
 from collections.abc import Mapping
 
 from robot_agent.hardware.contract import BodyBall, Picture, SensorReadings
 from schemas.config.robot_model import RobotModel
-from schemas.frames import Pose, to_body, wrap
+from schemas.frames import Pose, rotate, to_body, wrap
 from schemas.messages.command import Drive, Kick
 from schemas.messages.radio import Motion
 from schemas.messages.sight import Obstacle
@@ -50,8 +49,7 @@ class Dummy:
         self._check("sense")
         self._move(time)
         pose, drive = self._pose, self.drive or Drive()
-        c, s = math.cos(pose.heading), math.sin(pose.heading)
-        vx, vy = c * drive.vx - s * drive.vy, s * drive.vx + c * drive.vy
+        vx, vy = rotate(drive.vx, drive.vy, pose.heading)
         motion = Motion(x=pose.x, y=pose.y, heading=pose.heading, vx=vx, vy=vy, omega=drive.omega)
         ball = BodyBall(*self._seen(*self._ball)) if self._ball is not None else None
         posts = tuple(Obstacle(*self._seen(*post), self._model.body.radius) for post in self._posts)
@@ -75,8 +73,7 @@ class Dummy:
 
     def _move(self, time: float) -> None:
         pose, drive, dt = self._pose, self.drive or Drive(), time - self._time
-        c, s = math.cos(pose.heading), math.sin(pose.heading)
-        x, y = c * drive.vx - s * drive.vy, s * drive.vx + c * drive.vy
+        x, y = rotate(drive.vx, drive.vy, pose.heading)
         self._pose = Pose(pose.x + x * dt, pose.y + y * dt, wrap(pose.heading + drive.omega * dt))
         self._time = time
 

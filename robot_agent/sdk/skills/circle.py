@@ -6,6 +6,7 @@ from robot_agent.sdk.bodies import DriveLimits, Moving
 from robot_agent.sdk.skills.braking import braking_speed
 from robot_agent.sdk.skills.go_to import LAG, drive
 from robot_agent.sdk.skills.turn_to import turn_rate
+from schemas.frames import rotate
 from schemas.messages.command import Drive
 
 _SHARE = 0.5
@@ -26,7 +27,5 @@ def circle(me: Moving, centre: tuple[float, float], radius: float, limits: Drive
     outward = math.copysign(min(limits.speed, braking_speed(abs(error), _SHARE * limits.deceleration, LAG)), error)
     turns = speed / radius
     ahead = math.atan2(out_x, -out_y) + turns * LAG
-    c, s = math.cos(turns * LAG), math.sin(turns * LAG)
-    vx, vy = -out_y * speed, out_x * speed
-    vx, vy = c * vx - s * vy + outward * out_x, s * vx + c * vy + outward * out_y
-    return drive(me, vx, vy, turns + turn_rate(me, ahead, limits), limits)
+    vx, vy = rotate(-out_y * speed, out_x * speed, turns * LAG)
+    return drive(me, vx + outward * out_x, vy + outward * out_y, turns + turn_rate(me, ahead, limits), limits)
