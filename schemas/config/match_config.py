@@ -27,7 +27,7 @@ from schemas.config.match_parts import (
 )
 from schemas.config.noise import PRESETS
 from schemas.config.number_files import NumberFiles
-from schemas.config.obstacle import MAX_OBSTACLES, ObstacleConfig, Shape
+from schemas.config.obstacle import MAX_OBSTACLES, ObstacleConfig
 from schemas.config.profile import FILES as PROFILES
 from schemas.config.profile import Profile, load_profile, profile_of
 from schemas.config.roster import MAX_ROBOTS, RESERVED
@@ -50,6 +50,14 @@ _REMOTE_KEYS = {f"teams.{side.value}.remote": side for side in Side}
 LOCKSTEP = "lockstep"
 """The pace at which the host waits for the answers of all robots."""
 
+_OF_A_TEAM = {
+    "": 'write [teams.{0}], and below it the keys of the team; or {0} = "remote" below [teams]',
+    ".size": f"a side has 1 to {MAX_ROBOTS} robots",
+    ".robots": f"1 to {MAX_ROBOTS} different names of lower-case letters, digits and _",
+    ".stdio": 'write ["program", "argument"]',
+    ".types": 'write robot = "type", for example {{ {0}1 = "keeper" }}',
+}
+"""Key below a team → remedy for an invalid value."""
 REMEDIES = {
     "name": "a match name is a key chunk: lower-case letters, digits and _",
     "seed": "a whole number from 0 to 2^63 - 1",
@@ -58,20 +66,9 @@ REMEDIES = {
     "scene": "the name of a scene, or a path that ends in .toml",
     **{f"scene.{key}": remedy for key, remedy in SCENE_REMEDIES.items()},
     "teams": "write [teams.cyan] and [teams.magenta]",
-    "teams.cyan": 'write [teams.cyan], and below it the keys of the team; or cyan = "remote" below [teams]',
-    "teams.magenta": 'write [teams.magenta], and below it the keys of the team; or magenta = "remote" below [teams]',
-    "teams.cyan.size": f"a side has 1 to {MAX_ROBOTS} robots",
-    "teams.magenta.size": f"a side has 1 to {MAX_ROBOTS} robots",
-    "teams.cyan.robots": f"1 to {MAX_ROBOTS} different names of lower-case letters, digits and _",
-    "teams.magenta.robots": f"1 to {MAX_ROBOTS} different names of lower-case letters, digits and _",
-    "teams.cyan.stdio": 'write ["program", "argument"]',
-    "teams.magenta.stdio": 'write ["program", "argument"]',
-    "teams.cyan.types": 'write robot = "type", for example { cyan1 = "keeper" }',
-    "teams.magenta.types": 'write robot = "type", for example { magenta1 = "keeper" }',
+    **{f"teams.{side}{key}": remedy.format(side) for key, remedy in _OF_A_TEAM.items() for side in Side},
     "obstacles": f"write [[obstacles]] above each of at most {MAX_OBSTACLES} obstacles",
-    "obstacles.shape": f"one of {', '.join(Shape)}",
-    "obstacles.place": "x and y of the centre in m",
-    "obstacles.size": "x, y and z of a box in m",
+    **{key: remedy for key, remedy in SCENE_REMEDIES.items() if key.startswith("obstacles.")},
     "referee.mode": f"one of {', '.join(OfficiatingMode)}",
     "isolate": f"one of {', '.join(Isolation)}",
     "limits.cpu_time": "CPU time of a process in s, from 1",

@@ -56,12 +56,9 @@ def sensing_of(preset: str, own: Sensing) -> Sensing:
     Raises:
         TouchlineError: there is no such preset.
     """
-    if preset == "profile":
-        return own
-    if preset == "perfect":
-        return PERFECT
     if preset == "paper":
         return load_profile("paper").sensing
-    if preset == "simatch":
-        return SIMATCH
-    raise TouchlineError(f'noise.preset is "{preset}"; {did_you_mean(preset, PRESETS)}')
+    known = {"profile": own, "perfect": PERFECT, "simatch": SIMATCH}
+    if preset not in known:
+        raise TouchlineError(f'noise.preset is "{preset}"; {did_you_mean(preset, PRESETS)}')
+    return known[preset]
