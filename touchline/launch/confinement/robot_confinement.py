@@ -71,7 +71,7 @@ class Confinement:
         """What the process applies to itself."""
         limits, cpu_s = self.limits, round(self.limits.cpu_time)
         memory, file = round(limits.memory * 1e9), round(limits.file_size * 1e6)
-        wanted: OwnConfinement = {
+        return {
             "limits": {
                 "RLIMIT_CPU": (cpu_s, cpu_s + _GRACE_S),
                 "RLIMIT_DATA": (memory, memory),
@@ -82,7 +82,6 @@ class Confinement:
             },
             "folder": str(self.folder),
         }
-        return wanted
 
     def in_folder(self, folder: Path) -> "Confinement":
         """The same with another working folder."""

@@ -10,7 +10,7 @@ from pydantic import Field, field_validator, model_validator
 
 from schemas.config.config_model import ConfigModel
 from schemas.config.match_config import MatchConfig, load_match
-from schemas.config.match_parts import DEFAULT_SIZE
+from schemas.config.match_parts import DEFAULT_SIZE, PROGRAM_KINDS
 from schemas.config.roster import MAX_ROBOTS
 from schemas.config.toml_file import read_tables, validate_tables, with_files
 from schemas.errors import TouchlineError, did_you_mean
@@ -35,7 +35,6 @@ _OWN_KEYS = ("teams", "seed", "name", "pace", "record")
 """Keys of a match file that a cup decides itself."""
 _FILES = ("scene", "profile", "profile_tables", "rules", "rule_book_tables")
 """Keys of a match that are read from files."""
-_PROGRAMS = ("brain", "command", "stdio")
 MOST_TEAMS = 64
 
 
@@ -82,7 +81,7 @@ class TeamEntry(ConfigModel):
 
     @model_validator(mode="after")
     def _check_one_program(self) -> "TeamEntry":
-        given = [kind for kind in _PROGRAMS if getattr(self, kind) is not None]
+        given = [kind for kind in PROGRAM_KINDS if getattr(self, kind) is not None]
         if len(given) != 1:
             found = " and ".join(given) or "none"
             raise ValueError(f'"{self.name}" has {found}; give one of brain, command and stdio')

@@ -18,7 +18,6 @@ class Plan(Protocol):
         Args:
             outcomes: identity → outcome. While matches are being played, theirs are missing, and they are due still.
         """
-        ...
 
 
 @dataclass(frozen=True, slots=True)

@@ -145,9 +145,7 @@ def _check_recording(path: Path, planned: PlannedMatch, outcome: Result) -> tupl
         opened = open_recording(path)
         recorded = opened.manifest.config
         is_own = recorded is not None and _compared(recorded) == _compared(planned.config)
-        runs_score = (
-            is_own and planned.config.task is not None
-        )  # the plan's own program, not one that a recording brings
+        runs_score = is_own and planned.config.task is not None  # the plan's own, not one that a recording brings
         ticks, faults = _simulated(path, runs_score=runs_score)
         if not is_own:
             faults.append("it is the recording of another match: its configuration is not that of the plan")
