@@ -10,7 +10,7 @@ LEVEL = 0.95
 """Share of intervals that contain the true value."""
 _Z = float(special.ndtri((1 + LEVEL) / 2))
 _ROUNDING = 1e-12
-"""Share of all counts up to which a deviation is one of rounding."""
+"""Share of all counts, or of a value, up to which a deviation is one of rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +79,7 @@ def mean(values: Sequence[float]) -> Estimate | None:
         return None
     value = math.fsum(values) / number
     squares = math.fsum((one - value) ** 2 for one in values)
-    if min(values) == max(values):
+    if max(values) - min(values) <= _ROUNDING * max(map(abs, values)):
         return Estimate(value)
     half = student_t(number - 1) * math.sqrt(squares / (number - 1) / number)
     return Estimate(value, value - half, value + half)

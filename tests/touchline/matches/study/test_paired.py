@@ -107,6 +107,8 @@ def test_equal_values_in_all_seeds_give_no_interval_and_no_warning(bare_plan: Ma
     (found,) = goals_of(bare_plan(TWO_LEVELS), table("goals", {1: [2, 2, 2], 2: [2, 2, 2]}))
     assert (found.estimate.low, found.p, found.effect_size) == (None, None, None)
     assert "no difference" in sentence_of(found, "goals")
+    (rounded,) = goals_of(bare_plan(TWO_LEVELS), table("goals", {1: [0.35, 0.45, 1.3], 2: [1.35, 1.45, 2.3]}))
+    assert "the same difference, 1, between" in sentence_of(rounded, "goals")
 
 
 def test_a_seed_that_failed_in_one_cell_is_left_out_of_the_pairs(bare_plan: MakePlan, table: MakeTable) -> None:
