@@ -73,6 +73,10 @@ class RunStore:
         kind = "json_extract(CAST(content AS TEXT), '$.kind')"
         self._database.execute(f"DELETE FROM outcomes WHERE {kind} = ?", (FailureKind.WORKER,))
 
+    def forget_all(self) -> None:
+        """Remove all outcomes and texts, for a run that begins anew."""
+        self._database.executescript("DELETE FROM outcomes; DELETE FROM documents;")
+
     def close(self) -> None:
         """Close the file, and let another process write it."""
         if hasattr(self, "_database"):

@@ -15,7 +15,7 @@ from touchline.matches.engine.outcome import Failed, Outcome, Played
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.progress import ProgressDisplay
 from touchline.matches.engine.run import run_plan
-from touchline.matches.engine.store import FILE, RunStore
+from touchline.matches.engine.store import RunStore
 from touchline.matches.study.digests import as_text, library_digest, team_digests, versions
 from touchline.matches.study.recording_functions import load_functions, measure
 from touchline.matches.study.report import report_of
@@ -57,11 +57,11 @@ def run_study(
     functions = load_functions(plan.study.functions, plan.brain_folder)
     engine = check_study_teams(plan)
     code = {"touchline": library_digest(), **team_digests(plan.cells, plan.brain_folder)}
-    if fresh:
-        (folder / FILE).unlink(missing_ok=True)
-    write_plan(folder, plan)
-    (folder / VERSIONS).write_text(as_text(versions(engine)), "utf-8")
     with closing(RunStore(folder)) as store:
+        write_plan(folder, plan)
+        (folder / VERSIONS).write_text(as_text(versions(engine)), "utf-8")
+        if fresh:
+            store.forget_all()
         _check_code(store, code)
 
         def told(planned: PlannedMatch, outcome: Outcome) -> str:

@@ -39,7 +39,6 @@ def write_plan(folder: Path, plan: StudyPlan) -> None:
     Raises:
         TouchlineError: the folder has another study.
     """
-    folder.mkdir(parents=True, exist_ok=True)
     content = {
         "study": plan.study.model_dump(mode="json"),
         "brain_folder": os.path.relpath(plan.brain_folder, folder) if plan.brain_folder is not None else None,

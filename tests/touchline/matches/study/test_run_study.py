@@ -50,9 +50,17 @@ def test_a_study_that_is_run_again_plays_only_what_has_no_result(run: Run, playe
     assert (home / "results.csv").read_bytes() == before
 
 
-def test_a_folder_with_the_results_of_another_plan_is_left_alone(run: Run, played: Path) -> None:
+@pytest.mark.parametrize("fresh", [False, True])
+def test_a_folder_with_the_results_of_another_plan_is_left_alone(
+    run: Run, played: Path, home: Path, fresh: bool
+) -> None:
     with pytest.raises(TouchlineError, match="has the results of another plan; give another folder with --out"):
-        run(SHORT.replace("0.4", "0.5"))
+        run(SHORT.replace("0.4", "0.5"), fresh=fresh)
+    with closing(RunStore(home)) as store:
+        assert len(store.outcomes()) == 4
+        with pytest.raises(TouchlineError, match="another process plays this run"):
+            run(SHORT, fresh=True)
+        assert len(store.outcomes()) == 4
 
 
 def test_seeds_are_added_until_the_interval_is_narrow_or_the_budget_is_spent(run: Run, home: Path) -> None:
