@@ -14,7 +14,7 @@ KEYS = ("cell", "seed", "swapped", "identity", "chain")
 """Columns before the levels of the factors."""
 LEVEL = "level:"
 """Prefix of the columns of the factors' levels."""
-_COUNTS = (".fouls.", ".cards.", ".restarts.")
+COUNTS = (".fouls.", ".cards.", ".restarts.")
 """Parts of names of columns in which a missing value is 0: nothing of that name was counted in the match."""
 
 
@@ -50,7 +50,7 @@ def result_table(
     for name in table.columns:
         if name.startswith(LEVEL) and table[name].map(type).nunique() > 1:
             table[name] = table[name].map(level_text)  # a column has one type
-        elif any(part in name for part in _COUNTS):
+        elif any(part in name for part in COUNTS):
             table[name] = table[name].fillna(0)
     return table
 

@@ -16,7 +16,7 @@ from touchline.matches.series.plan import SeedMatch, with_sides_swapped
 from touchline.matches.statistics.paired import is_narrow
 from touchline.matches.study.cells import Cell
 from touchline.matches.study.match_figures import Value
-from touchline.matches.study.result_table import result_table
+from touchline.matches.study.result_table import COUNTS, result_table
 from touchline.matches.study.study_config import Study
 
 RECORDINGS = "recordings"
@@ -39,7 +39,7 @@ class StudyPlan:
     """Identity of a match → values of the study's functions."""
     _of_seeds: dict[int, tuple[SeedMatch, ...]] = field(init=False, default_factory=dict, repr=False, compare=False)
     _narrow: dict[int, bool] = field(init=False, default_factory=dict, repr=False, compare=False)
-    """Number of seeds, all of which were played → whether the interval is narrow enough."""
+    """Number of seeds, all of which were played → whether the interval is narrow enough, or none ever will be."""
 
     def due(self, outcomes: Mapping[str, Outcome]) -> list[PlannedMatch]:
         """All matches that can be played now and have no outcome; none when the study is complete."""
@@ -62,9 +62,9 @@ class StudyPlan:
             if any(one.identity not in outcomes for one in matches):
                 break
             if number not in self._narrow:
-                table, study = self.table(seeds, outcomes), self.study
-                limit = self.study.until_interval
-                self._narrow[number] = is_narrow(table, study.primary, study.matches_of_seed, limit)
+                table, primary, limit = self.table(seeds, outcomes), self.study.primary, self.study.until_interval
+                is_unknown = primary not in table and not any(part in primary for part in COUNTS)
+                self._narrow[number] = is_unknown or is_narrow(table, primary, self.study.matches_of_seed, limit)
             if self._narrow[number]:
                 break
             number = min(most, number + len(first))
