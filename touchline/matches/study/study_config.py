@@ -102,6 +102,8 @@ class Study(ConfigModel):
                 raise ValueError(f"cells have different keys, {one} and {other}; give each all")
         if self.functions and self.record == "inputs":
             raise ValueError('record is "inputs", and functions need whole recordings; leave record out')
+        if self.both_sides and "score" in self.responses:
+            raise ValueError('responses has "score", of one side\'s task; write both_sides = false')
         varied = [*self.factors, *(self.cells[0] if self.cells else ())]
         if doubled := next((key for key in varied if key in self.settings), None):
             raise ValueError(f"{doubled} is both a setting and varied; leave one out")

@@ -60,6 +60,7 @@ def test_noise_teams_and_parameters_of_brains_are_factors(plan: MakePlan) -> Non
         ("[factors]\nseed = [1, 2]", "seed is not for factors"),
         ("[factors]\nradio.loss = [0]\n[[cells]]\nnoise = 'paper'", "factors and cells are both given"),
         ("[[cells]]\nradio.loss = 0\n[[cells]]\nnoise = 'paper'", "cells have different keys"),
+        ("responses = ['score']", 'responses has "score", of one side\'s task; write both_sides = false'),
         ("seeds = '9-3'", "seeds is '9-3'|seeds is \"9-3\"|9-3 ends before it begins"),
         ("repeats = 3", "repeats"),
         ("until_interval = 0", "until_interval is 0"),
