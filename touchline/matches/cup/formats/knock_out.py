@@ -80,55 +80,35 @@ def knock_out(
     """
     bracket, earlier = Bracket(), list(before)
     line: list[Place] = [Vacancy.BYE if seed is None else seeded[seed] for seed in seeded_places(len(seeded))]
-    while len(line) > 1:
-        size, winners, losers = len(line), list[Place](), list[Place]()
-        played: list[FixtureResult] = []
-        bracket.rounds.append([(line[place], line[place + 1]) for place in range(0, size, 2)])
-        number = len(bracket.rounds)
-        for place, (first, second) in enumerate(bracket.rounds[-1]):
-            if isinstance(first, Vacancy) or isinstance(second, Vacancy):
-                winners.append(_unopposed(first, second))
-                continue
-            name = name_of(size, place)
-            fixture = Fixture(name, stage_of(size), number, (first, second), best_of, decisive=True)
-            bracket.fixtures.append(fixture)
-            result = results.get(name)
-            if result is None or not result.is_over:
-                winners.append(Vacancy.OPEN)
-                continue
-            played.append(result)
-            winner, loser = _ended(bracket, result, winner_of, earlier)
-            winners.append(winner)
-            losers.append(loser)
-        earlier += played
+
+    def played(name: str, stage: str, number: int, pair: tuple[Place, Place]) -> tuple[Place, Place | None]:
+        """The winner and the loser of a pair, open while it is not over; no loser where there is no match."""
+        first, second = pair
+        if isinstance(first, Vacancy) or isinstance(second, Vacancy):
+            return _unopposed(first, second), None
+        bracket.fixtures.append(Fixture(name, stage, number, (first, second), best_of, decisive=True))
+        result = results.get(name)
+        if result is None or not result.is_over:
+            return Vacancy.OPEN, Vacancy.OPEN
+        if result.is_lost_by_both:
+            return Vacancy.BYE, Vacancy.BYE
+        winner, criterion = winner_of(result, earlier)
+        if criterion is not None:
+            bracket.decided_by[name] = criterion
+        return winner, second if winner == first else first
+
+    while (size := len(line)) > 1:
+        pairs, number = list(zip(line[::2], line[1::2], strict=True)), len(bracket.rounds) + 1
+        bracket.rounds.append(pairs)
+        ended = [played(name_of(size, place), stage_of(size), number, pair) for place, pair in enumerate(pairs)]
+        earlier += [results[one.name] for one in bracket.fixtures if one.round == number and one.name in results]
+        losers = [loser for _, loser in ended if loser is not None]
         if size == 4 and third_place and len(losers) == 2:
-            one, other = losers
-            if isinstance(one, Vacancy) or isinstance(other, Vacancy):
-                bracket.third = _unopposed(one, other)
-            else:
-                bracket.third_place = Fixture(
-                    THIRD_PLACE, THIRD_PLACE, number + 1, (one, other), best_of, decisive=True
-                )
-                bracket.fixtures.append(bracket.third_place)
-                result = results.get(THIRD_PLACE)
-                if result is not None and result.is_over:
-                    bracket.third, _ = _ended(bracket, result, winner_of, earlier)
-        line = winners
+            bracket.third, _ = played(THIRD_PLACE, THIRD_PLACE, number + 1, (losers[0], losers[1]))
+            bracket.third_place = next((one for one in bracket.fixtures if one.name == THIRD_PLACE), None)
+        line = [winner for winner, _ in ended]
     bracket.winner = line[0]
     return bracket
-
-
-def _ended(
-    bracket: Bracket, result: FixtureResult, winner_of: WinnerOf, earlier: Iterable[FixtureResult]
-) -> tuple[Place, Place]:
-    """The winner and the loser of a fixture that is over; no team where both have forfeited."""
-    if result.is_lost_by_both:
-        return Vacancy.BYE, Vacancy.BYE
-    first, second = result.fixture.teams
-    winner, criterion = winner_of(result, earlier)
-    if criterion is not None:
-        bracket.decided_by[result.fixture.name] = criterion
-    return winner, second if winner == first else first
 
 
 def _unopposed(first: Place, second: Place) -> Place:
