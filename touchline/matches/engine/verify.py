@@ -54,10 +54,10 @@ class MatchCheck:
 
 
 def sampled(matches: list[PlannedMatch], number: int | None) -> list[PlannedMatch]:
-    """So many of the matches, drawn at random; all without a number."""
+    """So many of the matches, drawn at random: others each time, so that nobody knows which; all without a number."""
     if number is None or number >= len(matches):
         return matches
-    drawn = set(random.Random(1).sample(range(len(matches)), number))
+    drawn = set(random.SystemRandom().sample(range(len(matches)), number))
     return [one for place, one in enumerate(matches) if place in drawn]
 
 
