@@ -159,8 +159,9 @@ class BodyMaker:
         return shape
 
     def _fixed(self, shape: int, position: Vector, orientation: Quaternion = NO_TURN) -> int:
+        """A body that stands fast, and no mechanism without joints, which PyBullet makes otherwise: that costs time."""
         body: int = pybullet.createMultiBody(
-            0, shape, basePosition=position, baseOrientation=orientation, physicsClientId=self._client
+            0, shape, -1, position, orientation, useMaximalCoordinates=1, physicsClientId=self._client
         )
         return body
 
