@@ -60,12 +60,12 @@ class TaskGame(NamedTuple):
 
     def state_json(self, state: TaskState) -> str:
         """The complete state as JSON."""
-        return json.dumps(state._replace(game=self.game.state_json(state.game)))
+        return json.dumps((self.game.state_json(state.game), *state[1:]))
 
     def state_from_json(self, text: str) -> TaskState:
         """The state in a text of `state_json`."""
         try:
-            state = TaskState(*json.loads(text))
-            return state._replace(game=self.game.state_from_json(state.game))
+            game, *rest = json.loads(text)
+            return TaskState(self.game.state_from_json(game), *rest)
         except TypeError as error:  # other fields
             raise ValueError(str(error)) from None

@@ -22,8 +22,8 @@ BY_TIME, BY_SCORE, BY_GAME = "time", "score", "game"
 class TaskState(NamedTuple):
     """The whole memory of a match with a task between two ticks."""
 
-    game: Any
-    """The state of the game, a `PlayState`."""
+    game: PlayState
+    """The state of the game."""
     duration: float | None
     """Simulated time after which it ends in s; None for the end of the game."""
     played: float = 0.0
@@ -45,26 +45,22 @@ class TaskState(NamedTuple):
     @property
     def clock(self) -> float:
         """The clock of the game."""
-        clock: float = self.game.clock
-        return clock
+        return self.game.clock
 
     @property
     def score(self) -> Score:
         """Goals of both sides."""
-        score: Score = self.game.score
-        return score
+        return self.game.score
 
     @property
     def cyan_attacks(self) -> int:
         """The direction of the game."""
-        sign: int = self.game.cyan_attacks
-        return sign
+        return self.game.cyan_attacks
 
     @property
     def absences(self) -> Mapping[str, Absence]:
         """Robots that the game has off the field."""
-        absences: Mapping[str, Absence] = self.game.absences
-        return absences
+        return self.game.absences
 
     @property
     def change_key(self) -> tuple[Any, ...]:
@@ -73,12 +69,11 @@ class TaskState(NamedTuple):
 
     def attack(self, side: Side) -> int:
         """Sign of the x direction that a side attacks."""
-        sign: int = self.game.attack(side)
-        return sign
+        return self.game.attack(side)
 
     def game_state(self, tick: int, time: float, episode: int = 1) -> GameState:
         """The published state: that of the game, with the score and the time that is left."""
-        state: GameState = self.game.game_state(tick, time, episode)
+        state = self.game.game_state(tick, time, episode)
         if self.over:
             state = state.replace(phase=Phase.FULL_TIME, side=None, running=False)
         return state.replace(value=self.value, left=self.left(state.left))
