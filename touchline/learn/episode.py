@@ -16,7 +16,7 @@ from schemas.messages.world import World
 from schemas.wire.part_faults import validated
 from sim_host.task.judge import TaskState
 from touchline.play.match_recording import MatchRecording
-from touchline.play.play_match import InProcessMatch, answer_of
+from touchline.play.play_match import InProcessMatch
 
 PICTURE_WIDTH = 8.0
 """Width of a picture in hundreds of pixels."""
@@ -50,9 +50,9 @@ class Episode:
         """
         seats = {} if adviser == "" else dict.fromkeys(controlled, adviser or _Seat())
         self._match = InProcessMatch(config, seats, folder, chained=recording is not None)
-        self._simulation, brains = self._match.simulation, self._match.brains
-        self._brains = {name: brain for name, brain in brains.items() if name not in controlled}
-        self._advisers = {name: brains[name] for name in controlled} if adviser is not None else {}
+        self._simulation = self._match.simulation
+        self._others = [name for name in self._match.brains if name not in controlled]
+        self._advised = controlled if adviser is not None else ()
         self._recording: MatchRecording | None = None
         try:
             if recording is not None:
@@ -117,9 +117,7 @@ class Episode:
 
     def step(self, commands: Mapping[str, Command]) -> None:
         """One tick: the controlled robots do these commands, the others what their brains answer."""
-        all_commands = dict(commands)
-        for robot, brain in self._brains.items():
-            all_commands[robot] = answer_of(brain, self.sights[robot].own_copy())
+        all_commands = {**commands, **self._match.answers(self._others)}
         tick = self._simulation.step(all_commands)
         if self._recording is not None:
             self._recording.add(tick, all_commands)
@@ -127,7 +125,5 @@ class Episode:
 
     def _ask(self) -> None:
         """Hear what the advisers would do now; a brain sees every sight once, in order."""
-        self.advice = {
-            robot: answer_of(brain, self.sights[robot].own_copy()) for robot, brain in self._advisers.items()
-        }
+        self.advice = self._match.answers(self._advised)
         """Controlled robot → the command that its adviser would give now; empty without advisers."""

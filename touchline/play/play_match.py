@@ -4,7 +4,7 @@ Each brain gets a copy of its sight, and its commands cross as the same bytes as
 played by ten processes in lockstep from the same seed are the same, tick for tick.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -15,7 +15,6 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.command import Command
-from schemas.messages.sight import Sight
 from schemas.messages.soccer.game import GameEvent, RefereeAction
 from schemas.side import Side
 from schemas.soccer.game import Score
@@ -104,31 +103,22 @@ class InProcessMatch:
         """
         return self.simulation.step(self.answers(), actions)
 
-    def answers(self) -> dict[str, Command]:
-        """The commands with which the brains answer the newest sights."""
-        sights = self.simulation.now.sights.perceived
+    def answers(self, robots: Collection[str] | None = None) -> dict[str, Command]:
+        """The commands with which the brains answer the newest sights: of these robots, by default of all."""
         commands: dict[str, Command] = {}
         try:
-            for name, brain in self.brains.items():
+            for name in self.brains if robots is None else robots:
                 self.acting = name
-                commands[name] = Command.decode(answer_of(brain, sights[name].own_copy()).encode())
+                brain, sight = self.brains[name], self.simulation.now.sights.perceived[name]
+                command = brain.act(sight.own_copy())
+                if not isinstance(command, Command):
+                    raise ReturnedError("act", repr(command), brain.act, "return a Command")
+                commands[name] = Command.decode(command.encode())
         except BaseException as error:
             error.add_note(f"{self.acting}, tick {self.simulation.now.tick}")
             raise
         self.acting, self.commands = None, commands
         return commands
-
-
-def answer_of(brain: Brain, sight: Sight) -> Command:
-    """The command of a brain.
-
-    Raises:
-        ReturnedError: it returned something else.
-    """
-    command = brain.act(sight)
-    if not isinstance(command, Command):
-        raise ReturnedError("act", repr(command), brain.act, "return a Command")
-    return command
 
 
 def play_match(

@@ -292,6 +292,20 @@ def test_a_step_outside_of_an_episode_is_one_clear_error(rovers: Callable[..., T
         env.step(actions)
 
 
+def test_what_a_brain_beside_the_learners_raises_is_noted_with_robot_and_tick(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("broken_takers.py").write_text("def act(sight):\n    raise ValueError('no idea')\n")
+    with forgotten_imports(tmp_path):
+        env = keepaway(overrides={"teams.magenta.brain": "broken_takers:act"})
+        env.reset(1)
+        with pytest.raises(ValueError, match="no idea") as raised:
+            env.step(still(env))
+        env.close()
+    assert raised.value.__notes__ == ["magenta1, tick 0"]
+
+
 @pytest.mark.parametrize("seed", [-1, 2**63, 1.5, True, "one"])
 def test_a_wrong_seed_is_one_clear_error(rovers: Callable[..., TaskEnv], seed: Any) -> None:
     with pytest.raises(TouchlineError, match="give a whole number from 0"):
