@@ -265,6 +265,8 @@ def load_match(path: Path | str | None, overrides: dict[str, Any] | None = None)
         _set_at_path(content, key.split("."), deepcopy(value))
         if value is True and key in _REMOTE_KEYS:
             _drop_program(content["teams"], _REMOTE_KEYS[key])
+    if content.get("scene") is not None and content.get("obstacles"):
+        raise TouchlineError(f"{where}: a match that starts in a scene has the scene's obstacles; write these there")
     content = with_program(_with_number_files(_with_scene(content), where), where, folders)
     return _validate(content, where)
 

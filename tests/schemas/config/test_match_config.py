@@ -69,6 +69,10 @@ def test_the_name_of_a_shipped_team_is_a_brain(tmp_path: Path) -> None:
             '[[obstacles]]\nname = "cyan1"\nshape = "cylinder"\nplace = [0, 0]\nradius = 1\nheight = 1',
             'two bodies are named "cyan1"; every obstacle has a name of its own',
         ),
+        (
+            'scene = "kick_off"\n[[obstacles]]\nname = "b"\nshape = "box"\nplace = [0, 0]\nsize = [1, 1, 1]',
+            "a match that starts in a scene has the scene's obstacles; write these there",
+        ),
         ("x =", "not TOML"),
     ],
 )
