@@ -39,9 +39,8 @@ class Limits(ConfigModel):
 
     def breach(self, limit: str) -> str:
         """What a robot did that exceeded a limit, named by its field, and the remedy."""
-        figure = getattr(self, limit)
-        option = limit.replace("_", "-")
-        return f"it {_BREACHES[limit].format(figure)}; raise [limits] {limit}, or --{option} of touchline team"
+        what, option = _BREACHES[limit].format(getattr(self, limit)), limit.replace("_", "-")
+        return f"it {what}; raise [limits] {limit}, or --{option} of touchline team"
 
 
 _BREACHES = {

@@ -65,8 +65,7 @@ class Pitch:
     @property
     def restart_spots(self) -> tuple[tuple[float, float], ...]:
         """The nine restart spots: centre mark, penalty marks, and midway to the touch lines beside each of them."""
-        mark = self.goal_line - self.penalty_mark
-        beside = self.touch_line / 2
+        mark, beside = self.goal_line - self.penalty_mark, self.touch_line / 2
         return tuple((x, y) for x in (-mark, 0.0, mark) for y in (-beside, 0.0, beside))
 
 
