@@ -8,6 +8,9 @@ from typing import NamedTuple
 
 from schemas.config.sections import Ball
 
+GRAVITY = 9.81
+"""m/s², as in the world file of nubot-nu's simatch."""
+
 
 class Rolling(NamedTuple):
     """What slows a rolling ball."""

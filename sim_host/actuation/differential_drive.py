@@ -12,12 +12,12 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from schemas.config.robot_model import RobotModel
+from schemas.config.rolling import GRAVITY
 from schemas.config.sections import TimeSteps
 from schemas.config.wheels import Wheels
 from schemas.messages.command import Drive
 from sim_host.actuation.drive_model import Bodies, DriveModel, Plan
 from sim_host.actuation.stuck_detector import MIN_SPEED, MIN_TURN_RATE, SLOW_SHARE
-from sim_host.physics.gravity import GRAVITY
 from sim_host.physics.vectors import FieldTwist
 from sim_host.snapshot import RobotState, RobotStates
 

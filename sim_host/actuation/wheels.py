@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from schemas.config.robot_model import RobotModel
+from schemas.config.rolling import GRAVITY
 from schemas.config.wheels import Wheels
-from sim_host.physics.gravity import GRAVITY
 
 Floats = NDArray[np.float64]
 

@@ -7,8 +7,8 @@ Instead, the step in which a falling ball would reach the ground begins with the
 
 import math
 
+from schemas.config.rolling import GRAVITY
 from schemas.config.sections import Ball
-from sim_host.physics.gravity import GRAVITY
 from sim_host.physics.vectors import Vector
 
 MIN_BOUNCE_SPEED = 0.2

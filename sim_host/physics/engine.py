@@ -8,6 +8,7 @@ from itertools import chain
 from typing import Any
 
 from schemas.config.profile import Profile
+from schemas.config.rolling import GRAVITY
 from schemas.config.roster import Placement
 from schemas.errors import NoBallError
 from schemas.frames import wrap
@@ -16,7 +17,6 @@ from sim_host.physics.bodies import NO_TURN, BodyMaker, surface_restitution, upr
 from sim_host.physics.body_state import BallContacts, BodyState, Gap
 from sim_host.physics.bounce import MIN_BOUNCE_SPEED
 from sim_host.physics.bullet import pybullet, release_client, take_client
-from sim_host.physics.gravity import GRAVITY
 from sim_host.physics.pitch import SOCCER, Furniture
 from sim_host.physics.pushables import Pushable, inertia
 from sim_host.physics.vectors import FieldTwist, Vector

@@ -7,11 +7,11 @@ on place and turning together (Howe and Cutkosky 1996, the ellipsoid of a limit 
 
 import math
 
+from schemas.config.rolling import GRAVITY
 from schemas.frames import wrap
 from sim_host.physics.bodies import upright
 from sim_host.physics.body_state import BodyState
 from sim_host.physics.bullet import pybullet
-from sim_host.physics.gravity import GRAVITY
 from sim_host.physics.vectors import FieldTwist
 from sim_host.snapshot import ObstacleState, Pushed
 

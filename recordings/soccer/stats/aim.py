@@ -3,13 +3,11 @@
 import math
 from enum import Enum, auto
 
-from schemas.config.rolling import Rolling
+from schemas.config.rolling import GRAVITY, Rolling
 from schemas.config.soccer.kicked import Kicked
 from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth
 
-GRAVITY = 9.81
-"""m/s²."""
 NEAR_MISS_M = 1.0
 """m beside a post up to which a kick counts as aimed at the goal, as does one over the bar. Chosen here."""
 _FLIES = 0.2

@@ -8,11 +8,9 @@ v₀·(1 + s·k) / (1 + k), less what the air takes meanwhile.
 import math
 from typing import NamedTuple
 
-from schemas.config.rolling import Rolling
+from schemas.config.rolling import GRAVITY, Rolling
 from schemas.config.sections import Ball, Kicker
 
-_GRAVITY = 9.81
-"""m/s²."""
 _ROUNDS = 8
 """Iterations at most; four are enough for 1e-9."""
 _NEAR = 1e-9
@@ -35,7 +33,7 @@ class Kicked(NamedTuple):
         """The resistance of a profile's ball after a kick by a kicker."""
         air = 0.5 * ball.air_density * ball.rolling_drag_coefficient * math.pi * ball.radius**2 / ball.mass
         inertia = ball.inertia / (ball.mass * ball.radius**2)
-        return cls(Rolling.of(ball), Rolling(_GRAVITY * ball.friction, air), inertia, kicker.kick_spin)
+        return cls(Rolling.of(ball), Rolling(GRAVITY * ball.friction, air), inertia, kicker.kick_spin)
 
     def slide(self, speed: float) -> float:
         """Time in s until a ball that left the kicker at `speed` m/s rolls."""

@@ -8,7 +8,7 @@ the point.
 import math
 from typing import NamedTuple
 
-from sim_host.physics.gravity import GRAVITY
+from schemas.config.rolling import GRAVITY
 
 _FLAT = 1e-6
 """m; the smallest rise in the bound on the speed, which is infinite for a lob that may not rise."""

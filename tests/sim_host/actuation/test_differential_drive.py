@@ -10,9 +10,9 @@ from pytest import approx
 from schemas.config.profile import load_profile
 from schemas.config.quantity import Choice, meanings
 from schemas.config.robot_model import RobotModel
+from schemas.config.rolling import GRAVITY
 from schemas.config.sections import DriveLimits
 from sim_host.actuation.drives import DRIVES
-from sim_host.physics.gravity import GRAVITY
 from sim_host.snapshot import RobotState
 from support.world_rig import WorldRig, two_a_side
 from support.world_rig import tell as drive

@@ -10,9 +10,9 @@ from pytest import approx
 
 from schemas.config.profile import load_profile
 from schemas.config.robot_model import RobotModel
+from schemas.config.rolling import GRAVITY
 from schemas.messages.command import Drive
 from sim_host.actuation.omni_drive import OmniDrive
-from sim_host.physics.gravity import GRAVITY
 from sim_host.snapshot import RobotState
 
 TIME = load_profile("omni").time

@@ -12,8 +12,8 @@ from pytest import approx
 
 from schemas.config.profile import load_profile
 from schemas.config.robot_model import RobotModel
+from schemas.config.rolling import GRAVITY
 from sim_host.actuation.wheels import Floats, WheelSets
-from sim_host.physics.gravity import GRAVITY
 
 STEP = 0.005
 FOUR, THREE = (RobotModel.standard(load_profile(name)) for name in ("omni", "omni3"))

@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from recordings.soccer.stats.aim import GRAVITY, NEAR_MISS_M, Aim, aim
+from recordings.soccer.stats.aim import NEAR_MISS_M, Aim, aim
+from schemas.config.rolling import GRAVITY
 from schemas.config.soccer.kicked import Kicked
 from schemas.messages.world import BallTruth
 

@@ -20,6 +20,7 @@ from hypothesis import strategies as st
 from schemas.config.profile import Profile, load_profile
 from schemas.config.quantity import Choice, meanings
 from schemas.config.robot_model import RobotModel
+from schemas.config.rolling import GRAVITY
 from schemas.config.roster import Placement
 from schemas.config.sections import Dribble
 from schemas.messages.applied import AppliedInput
@@ -27,7 +28,6 @@ from schemas.messages.command import Drive, Kick, KickMode
 from schemas.side import Side
 from sim_host.match.world import World
 from sim_host.physics.engine import Engine
-from sim_host.physics.gravity import GRAVITY
 from sim_host.snapshot import RobotState, Roster, Snapshot
 from sim_host.soccer.ball.carrying import PULL_SPEED
 from sim_host.soccer.game import ARENA

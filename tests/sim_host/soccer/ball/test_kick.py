@@ -8,8 +8,8 @@ import pytest
 from pytest import approx
 
 from schemas.config.profile import Profile, load_profile
+from schemas.config.rolling import GRAVITY
 from schemas.messages.command import KickMode
-from sim_host.physics.gravity import GRAVITY
 from sim_host.snapshot import BallState
 from sim_host.soccer.ball.aerodynamics import Aerodynamics
 from sim_host.soccer.ball.kick import KickRefusedError, Launch, PlannedKick, launch
