@@ -102,7 +102,7 @@ def _rows(
             continue
         row, path = _row(stored.table, match), recording_name(match.identity)
         goals = pd.to_numeric(pd.Series([row.get(f"{team}.goals") for team in (FIRST, SECOND)]), errors="coerce")
-        counted = dict(zip(match.sides, goals.fillna(-1).astype(int), strict=True))
+        counted = dict(zip(match.sides, goals.fillna(0).astype(int), strict=True))
         recorded = from_recordings and (stored.folder / path).exists()
         yield match.identity, ResultRow(str(row["chain"]), counted, path if recorded else None)
 

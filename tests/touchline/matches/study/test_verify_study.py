@@ -54,6 +54,16 @@ def test_a_study_folder_can_be_moved_and_verified_without_its_study_file(
     assert check(Path(moved), sample=1) == []
 
 
+@pytest.mark.parametrize("record", ["false", "true", '"inputs"'])
+def test_a_study_of_a_game_without_goals_is_verified(run: Run, home: Path, record: str) -> None:
+    match = Path(__file__).parents[4] / "touchline" / "tasks" / "coverage.toml"
+    run(
+        f'match = "{match}"\nboth_sides = false\nseeds = "1"\nresponses = ["score"]\nrecord = {record}\n'
+        "[settings]\nduration = 0.5\n"
+    )
+    assert check(home) == []
+
+
 def test_verification_names_the_match_whose_result_was_changed(played: Path, home: Path) -> None:
     table = pd.read_csv(home / "results.csv")
     table.loc[2, "distance"] += 1.0
