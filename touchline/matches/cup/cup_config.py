@@ -12,6 +12,7 @@ from schemas.config.config_model import ConfigModel
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.match_parts import DEFAULT_SIZE, PROGRAM_KINDS
 from schemas.config.roster import MAX_ROBOTS
+from schemas.config.task import GameName
 from schemas.config.toml_file import read_tables, validate_tables, with_files
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.message import Name
@@ -184,6 +185,8 @@ class CupConfig(ConfigModel):
         own = next((key for key in self.match if key in _OWN_KEYS), None)
         if own is not None:
             raise ValueError(f"match.{own} is decided by the cup; leave it out")
+        if self.match.get("game", GameName.SOCCER) != GameName.SOCCER:
+            raise ValueError(f'match.game is "{self.match["game"]}", and a cup counts goals; leave it out')
         for team in self.teams:
             if self.way is Way.IN_PROCESS and team.command is not None:
                 raise ValueError(f'team "{team.name}" is a program on the network; write way = "{Way.PROCESSES}"')

@@ -79,6 +79,7 @@ def test_the_rule_book_that_the_docs_shorten_matches_with_is_in_the_folder_of_th
         ("[match]\nduration = -1.0\n" + TEAMS, "match.duration is -1.0; playing time of all halves"),
         ('[match]\nrules = "msk"\n' + TEAMS, "msk"),
         ("[match]\nseed = 3\n" + TEAMS, "match.seed is decided by the cup; leave it out"),
+        ('[match]\ngame = "free"\n' + TEAMS, 'match.game is "free", and a cup counts goals; leave it out'),
         ("[match\n", "not TOML"),
     ],
 )
