@@ -3,6 +3,7 @@
 import fcntl
 import os
 import sqlite3
+from contextlib import suppress
 from pathlib import Path
 
 from schemas.errors import TouchlineError
@@ -78,8 +79,11 @@ class RunStore:
         self._database.executescript("DELETE FROM outcomes; DELETE FROM documents;")
 
     def close(self) -> None:
-        """Close the file, and let another process write it."""
+        """Close the file, which those who cannot write its folder may read then, and let another process write it."""
         if hasattr(self, "_database"):
+            if self._lock is not None:
+                with suppress(sqlite3.Error):  # somebody reads it, or it is none
+                    self._database.execute("PRAGMA journal_mode = DELETE")
             self._database.close()
         if self._lock is not None:
             os.close(self._lock)

@@ -315,6 +315,14 @@ def test_a_run_shows_how_many_matches_are_done_due_and_failed_with_those_of_befo
     assert third.startswith("seed 3; ") and "cyan1 3" in third and not is_third_failed
 
 
+def test_who_reads_a_run_that_has_ended_writes_nothing_into_its_folder(tmp_path: Path) -> None:
+    with closing(RunStore(tmp_path)) as store:
+        store.set_document("cup", "its plan")
+    with closing(RunStore(tmp_path, read_only=True)) as store:
+        assert store.document("cup") == "its plan"
+        assert {one.name for one in tmp_path.iterdir()} == {"run.sqlite", "run.lock"}
+
+
 def test_a_folder_that_holds_no_run_is_neither_read_nor_written_over(tmp_path: Path) -> None:
     with pytest.raises(TouchlineError, match=r"has no run\.sqlite; give the folder of a run"):
         RunStore(tmp_path / "none", read_only=True)
