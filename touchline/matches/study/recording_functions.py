@@ -2,12 +2,11 @@
 
 import math
 from collections.abc import Callable, Mapping
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from recordings.reading.recording import open_recording
-from robot_agent.loading.brain_folders import BrainFolders
+from robot_agent.loading.brain_loader import load_object
 from schemas.errors import TouchlineError
 from touchline.matches.study.match_figures import Value
 
@@ -18,8 +17,11 @@ def load_functions(paths: Mapping[str, str], folder: Path | None) -> dict[str, C
     Raises:
         TouchlineError: there is no such function.
     """
-    BrainFolders(folder).add_to_module_path()
-    return {name: _function(path) for name, path in paths.items()}
+    found = {name: load_object(f'functions.{name} is "{path}"', path, folder)[0] for name, path in paths.items()}
+    for name, one in found.items():
+        if not callable(one):
+            raise TouchlineError(f'functions.{name} is "{paths[name]}", which is {one!r}; name a function')
+    return found
 
 
 def measure(functions: Mapping[str, Callable[..., Any]], path: Path) -> dict[str, Value]:
@@ -29,18 +31,6 @@ def measure(functions: Mapping[str, Callable[..., Any]], path: Path) -> dict[str
         TouchlineError: a function raises, or returns anything but a number.
     """
     return {name: _value(name, function, path) for name, function in functions.items()}
-
-
-def _function(path: str) -> Callable[..., Any]:
-    module, _, name = path.partition(":")
-    try:
-        found = getattr(import_module(module), name, None)
-    except Exception as error:
-        raise TouchlineError(f"function {path}: {type(error).__name__}: {error}") from None
-    if not callable(found):
-        raise TouchlineError(f"function {path}: {module} has no function {name}")
-    function: Callable[..., Any] = found
-    return function
 
 
 def _value(name: str, function: Callable[..., Any], path: Path) -> Value:
