@@ -87,8 +87,14 @@ def run_study(
 
 
 def _measure(plan: StudyPlan, folder: Path, functions: Mapping[str, Callable[..., Any]], outcome: Outcome) -> None:
-    """Apply the study's functions to the recording of a match that was played."""
-    if functions and isinstance(outcome, Played) and outcome.recording is not None:
+    """Apply the study's functions to the recording of a match that was played.
+
+    Raises:
+        TouchlineError: it has none, because the study had no functions then, or one of them fails.
+    """
+    if functions and isinstance(outcome, Played):
+        if outcome.recording is None:
+            raise TouchlineError(f"{folder}: functions need recordings of all matches; play all again with --fresh")
         plan.measured[outcome.identity] = measure(functions, folder / outcome.recording)
 
 

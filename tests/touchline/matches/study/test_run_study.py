@@ -84,6 +84,9 @@ def test_a_function_of_a_recording_is_a_response(run: Run, home: Path, tmp_path:
     assert sample.faults == []
     again = verify_study(home, ThreadPoolExecutor(1), None, None, from_recordings=False)
     assert (again.faults, again.byte_identical) == ([], True)
+    run(ONE_CELL, fresh=True)
+    with pytest.raises(TouchlineError, match="functions need recordings of all matches; play all again with --fresh"):
+        run(ONE_CELL + '[functions]\nworlds = "measures_of_mine:worlds"\n')
 
 
 def test_a_function_that_is_not_there_is_named_before_any_match(run: Run) -> None:
