@@ -29,6 +29,8 @@ ANNOUNCEMENT = "endpoint.json"
 """The file in which the host of a run announces its endpoint, in the run's folder."""
 TOKENS = "tokens.json"
 """The file of a run's tokens, in its folder."""
+_RESULT = "result"
+"""The folder with what the match's page shows after the match, in that of its run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,20 +103,21 @@ class MatchPlan:
     @property
     def result_folder(self) -> Path:
         """The folder with what the match's page shows after the match."""
-        return self.folder / "result"
+        return self.folder / _RESULT
 
 
 def check_robot_names(config: MatchConfig) -> None:
-    """Check that no robot has the name of another process of the match: log files have these names.
+    """Check that no robot has the name of another process or a file of the match: its log and its folder have its name.
 
     Raises:
         TouchlineError: a robot has such a name.
     """
     taken = [kind.value for kind in ProcessKind if kind is not ProcessKind.AGENT]
+    taken += [Path(name).stem for name in (OUTCOME, CREDENTIALS, ANNOUNCEMENT, TOKENS, _RESULT)]
     taken += [side.value for side in Side if side.value in config.processes(side)]
     for name in (name for side in Side for name in config.robots(side)):
         if name in taken:
-            raise TouchlineError(f'a robot is named "{name}", as a process of the match is; rename it')
+            raise TouchlineError(f'a robot is named "{name}", as a process or a file of the match is; rename it')
 
 
 def host_process(plan: MatchPlan) -> Process:

@@ -38,10 +38,13 @@ def test_a_friendly_has_a_host_a_recorder_and_ten_agents() -> None:
     assert names == ["host", "recorder", *(f"{side}{n}" for side in ("cyan", "magenta") for n in range(1, 6))]
 
 
-@pytest.mark.parametrize("name", ["host", "recorder", "page", "bridges"])
-def test_no_robot_is_called_as_another_process_of_the_match(name: str) -> None:
+FILES = ("credentials", "endpoint", "outcome", "result", "tokens")
+
+
+@pytest.mark.parametrize("name", ["host", "recorder", "page", "bridges", *FILES])
+def test_no_robot_is_called_as_another_process_or_a_file_of_the_match(name: str) -> None:
     """The supervisor knows processes by their names: such a robot took the host's place, and no match was played."""
-    with pytest.raises(TouchlineError, match=f'a robot is named "{name}", as a process of the match is; rename it'):
+    with pytest.raises(TouchlineError, match=f'a robot is named "{name}", as a process or a file of the match is'):
         check_robot_names(load_match(None, {"teams.magenta.robots": ["magenta1", name]}))
     check_robot_names(load_match(None))
 
@@ -84,7 +87,7 @@ def test_a_team_in_one_process_has_the_name_of_its_side_and_all_robots() -> None
     assert isinstance(settings, AgentSettings)
     assert [settings.robot, *settings.mates] == [f"cyan{n}" for n in range(1, 6)]
     named = {"teams.cyan": {"brain": "nubot", "process": "team"}, "teams.magenta.robots": ["cyan"]}
-    with pytest.raises(TouchlineError, match='a robot is named "cyan", as a process of the match is; rename it'):
+    with pytest.raises(TouchlineError, match='a robot is named "cyan", as a process or a file of the match is'):
         check_robot_names(load_match(None, named))
 
 
