@@ -6,14 +6,7 @@ from pathlib import Path
 
 from schemas.errors import TouchlineError
 from touchline.matches.cup.cup_config import CupConfig
-from touchline.matches.cup.cup_plan import (
-    CupPlan,
-    check_submitted,
-    digests_of,
-    match_config,
-    store_plan,
-    stored_plan,
-)
+from touchline.matches.cup.cup_plan import CupPlan, check_submitted, digests_of, match_config, store_plan, stored_plan
 from touchline.matches.cup.cup_state import CupState, state_of
 from touchline.matches.cup.match_result import score_text
 from touchline.matches.cup.report import RESULT, report_of

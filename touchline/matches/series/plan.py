@@ -96,13 +96,7 @@ def with_brains(config: MatchConfig, brains: Mapping[Side, str]) -> MatchConfig:
     """The match with these brains in place of the programs of the file; size, names and types of the robots stay."""
     teams = {
         side.value: config.team(side).model_copy(
-            update={
-                "name": brain.partition(":")[2],
-                "brain": brain,
-                "command": None,
-                "stdio": None,
-                "remote": False,
-            }
+            update={"name": brain.partition(":")[2], "brain": brain, "command": None, "stdio": None, "remote": False}
         )
         for side, brain in brains.items()
     }

@@ -48,12 +48,7 @@ def report_of(
     )
 
 
-def _response(
-    plan: StudyPlan,
-    table: pd.DataFrame,
-    response: str,
-    groups: Sequence[ComparisonGroup],
-) -> dict[str, Any]:
+def _response(plan: StudyPlan, table: pd.DataFrame, response: str, groups: Sequence[ComparisonGroup]) -> dict[str, Any]:
     """Plots and rows of the tables of a response."""
     means = seed_means(table, response, plan.study.matches_of_seed)
     plots = [("Means of the cells", plot_of_means(means, plan.cells, response))]
