@@ -81,6 +81,8 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         modes = self.metadata["render_modes"]
         if render_mode not in (None, *modes):
             raise TouchlineError(f'render_mode is "{render_mode}"; {did_you_mean(str(render_mode), modes)}')
+        if max_cycles is not None and max_cycles < 1:
+            raise TouchlineError(f"max_cycles is {max_cycles}; give a number of steps, or leave it out")
         self.render_mode = render_mode
         self.possible_agents = _agents(self._task, robots)
         self.agents: list[str] = []
@@ -310,7 +312,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
 
 def _agents(task: Task, robots: Sequence[str] | None) -> list[str]:
     """The robots of a task that are agents: all, or those that are named."""
-    chosen = task.robots if robots is None else list(robots)
+    chosen = list(dict.fromkeys(task.robots if robots is None else robots))
     for robot in chosen:
         if robot not in task.robots:
             raise TouchlineError(f"{robot} does not do this task; {did_you_mean(robot, task.robots)}")

@@ -245,6 +245,7 @@ def test_a_recording_ends_with_the_next_reset(rovers: Callable[..., TaskEnv], tm
         ({"robots": ["ome"]}, 'ome does not do this task; did you mean "one"?'),
         ({"robots": []}, "no robot is an agent"),
         ({"observation": "sigth"}, 'did you mean "sight"?'),
+        ({"max_cycles": 0}, "max_cycles is 0; give a number of steps, or leave it out"),
         ({"parameters": {"decision_ticks": 0}}, "decision_ticks is 0; write a whole number from 1 to 1000"),
         ({"parameters": {"observe": "motoin"}}, 'names "motoin"; did you mean "motion"?'),
         ({"parameters": {"act": "vx omga"}}, 'names "omga"; did you mean "omega"?'),
