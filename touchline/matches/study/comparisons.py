@@ -53,7 +53,8 @@ def comparison_groups(plan: StudyPlan, table: pd.DataFrame, response: str) -> li
     means = seed_means(table, response, plan.study.matches_of_seed)
     effects = list(_main_effects(plan, means))
     cells = _cells_with_first(plan, means)
-    groups = [*effects, ComparisonGroup(f"Cells, against {plan.cells[0].label}", cells, is_answer=not effects)]
+    title = f"Cells, against {cells[0].reference}" if cells else ""
+    groups = [*effects, ComparisonGroup(title, cells, is_answer=not effects)]
     if response.endswith(DIFFERENCE):
         teams = _teams(plan, means)
         groups.append(ComparisonGroup("First team against second", teams, is_answer=len(plan.cells) == 1))

@@ -116,6 +116,14 @@ def test_a_seed_that_failed_in_one_cell_is_left_out_of_the_pairs(bare_plan: Make
     assert (found.estimate.seeds, found.matches) == (3, 6)
 
 
+def test_where_no_match_of_the_first_cell_ended_the_others_are_compared_with_the_next(
+    bare_plan: MakePlan, table: MakeTable
+) -> None:
+    plan = bare_plan(TWO_LEVELS.replace("[0, 0.4]", "[0, 0.2, 0.4]"))
+    (group,) = comparison_groups(plan, table("goals", {2: [1, 2, 3], 3: [2, 3, 5]}), "goals")
+    assert group.title == "Cells, against radio.loss = 0.2"
+
+
 def test_both_sides_of_a_seed_count_as_one_sample(bare_plan: MakePlan) -> None:
     plan = bare_plan('both_sides = true\nresponses = ["goals"]')
     rows = [(1, 1, False, 4), (1, 1, True, 2), (1, 2, False, 1), (1, 2, True, 0), (1, 3, False, 7)]
