@@ -76,8 +76,12 @@ def _speed(gap: float, drive: DriveLimits) -> float:
 
 
 def _nearest(wx: float, wy: float, limits: list[_Limit]) -> tuple[float, float]:
-    """The velocity within all limits that is nearest to the wanted one; rest where there is none."""
-    found = []
+    """The velocity within all limits that is nearest to the wanted one; rest where there is none.
+
+    Limits of two bodies that the robot is between meet far off: it is not driven out faster than it wants to go, or
+    than it retreats from both.
+    """
+    found, top = [], max(math.hypot(wx, wy), 2.0 * _RETREAT)
     for one in limits:
         excess = wx * one.x + wy * one.y - one.most
         found.append((wx - excess * one.x, wy - excess * one.y))
@@ -86,12 +90,12 @@ def _nearest(wx: float, wy: float, limits: list[_Limit]) -> tuple[float, float]:
         if abs(across) > _SAME:
             x, y = one.most * other.y - other.most * one.y, one.x * other.most - other.x * one.most
             found.append((x / across, y / across))
-    allowed = [place for place in found if all(limit.allows(*place) for limit in limits)]
+    allowed = [one for one in found if math.hypot(*one) <= top and all(limit.allows(*one) for limit in limits)]
     return min(allowed, key=lambda place: math.hypot(place[0] - wx, place[1] - wy), default=(0.0, 0.0))
 
 
 def _along(wanted: float, heading: float, limits: list[_Limit]) -> float:
-    """The speed ahead within all limits that is nearest to the wanted one; 0 where there is none."""
+    """The speed ahead within all limits that is nearest to the wanted one; 0 where there is none, as in `_nearest`."""
     low, high = -math.inf, math.inf
     for limit in limits:
         ahead = limit.x * math.cos(heading) + limit.y * math.sin(heading)
@@ -101,4 +105,5 @@ def _along(wanted: float, heading: float, limits: list[_Limit]) -> float:
             low = max(low, limit.most / ahead)
         elif limit.most < 0.0:
             return 0.0
-    return max(low, min(high, wanted)) if low <= high else 0.0
+    nearest = max(low, min(high, wanted)) if low <= high else 0.0
+    return nearest if abs(nearest) <= max(abs(wanted), 2.0 * _RETREAT) else 0.0

@@ -30,6 +30,19 @@ def test_a_robot_that_is_too_near_is_driven_away_and_may_turn():
     assert -0.31 < found.vx < -0.2 and found.vy == approx(0.0, abs=1e-9) and found.omega == 3.0
 
 
+@pytest.mark.parametrize("aside", [0.0, 0.01, 0.06, 0.3])
+def test_a_robot_between_two_bodies_is_not_driven_out_at_speed(aside):
+    between = sight([(0.0, 2 * REACH + 0.02), (aside, -2 * REACH - 0.02)])
+    found = keep_clear(Drive(vx=0.1), between, SETUP, 0.2)
+    assert math.hypot(found.vx, found.vy) <= 0.6
+
+
+def test_two_wheels_do_not_drive_off_at_speed_from_a_body_beside_them():
+    setup = make_setup("differential")
+    beside = sight([(0.03, 2 * setup.robot.reach + 0.02)])
+    assert abs(keep_clear(Drive(vx=0.1), beside, setup, 0.2).vx) <= 0.6
+
+
 def test_along_a_wall_the_robot_goes_on_and_toward_it_stops():
     half = SETUP.pitch.touch_line + SETUP.pitch.border
     near = sight([], at=(0.0, half - REACH - 0.1, 0.0), velocity=(1.0, 0.0, 0.0))
