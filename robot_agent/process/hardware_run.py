@@ -102,12 +102,7 @@ def open_free_network(settings: AgentSettings, clock: Clock, patience: float) ->
     return bus
 
 
-def serve_without_host(
-    bus: Bus,
-    setup: Setup,
-    settings: AgentSettings,
-    build: Callable[[Setup], Brain],
-) -> int:
+def serve_without_host(bus: Bus, setup: Setup, settings: AgentSettings, build: Callable[[Setup], Brain]) -> int:
     """Run a robot on hardware without a host, until the process is ended; the exit status.
 
     Raises:

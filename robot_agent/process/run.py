@@ -9,12 +9,7 @@ from robot_agent.loading.brain_reload import BrainReload
 from robot_agent.process.brain_runner import BrainRunner
 from robot_agent.process.breakpoints import skip_breakpoints
 from robot_agent.process.claim import Membership
-from robot_agent.process.hardware_run import (
-    check_body,
-    guarded_hardware,
-    open_free_network,
-    serve_without_host,
-)
+from robot_agent.process.hardware_run import check_body, guarded_hardware, open_free_network, serve_without_host
 from robot_agent.process.hardware_runner import HardwareRunner
 from robot_agent.process.robot_code import end_robot, start_robot
 from robot_agent.process.runner import MakeRunner, Member, Runner, serve
