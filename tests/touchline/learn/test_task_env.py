@@ -301,10 +301,9 @@ def test_what_a_brain_beside_the_learners_raises_is_noted_with_robot_and_tick(
     with forgotten_imports(tmp_path):
         env = keepaway(overrides={"teams.magenta.brain": "broken_takers:act"})
         env.reset(1)
-        with pytest.raises(ValueError, match="no idea") as raised:
+        with pytest.raises(ValueError, match=r"^no idea\nmagenta1, tick 0$"):
             env.step(still(env))
         env.close()
-    assert raised.value.__notes__ == ["magenta1, tick 0"]
 
 
 @pytest.mark.parametrize("seed", [-1, 2**63, 1.5, True, "one"])
