@@ -14,6 +14,7 @@ from robot_agent.hardware.settings import HardwareSettings
 from runtime.process.clock import Clock
 from runtime.process.process_log import Level, log_line
 from schemas.config.robot_model import RobotModel
+from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
 from schemas.messages.hardware import CallHealth, Fallback, HardwareHealth, HardwareState
 from schemas.messages.health import MAX_FAULT
@@ -21,8 +22,11 @@ from schemas.messages.health import MAX_FAULT
 _AT_REST = Drive()
 _LONGEST_STEP = 0.05
 """s for which a demand may gain or lose speed at once; after a pause it does so in steps, as without one."""
+_METHODS = ("configure", "activate", "sense", "actuate", "deactivate", "close")
 _TIMED = ("sense", "actuate")
 """The calls that have a deadline: devices may take a while to open and to close."""
+_PATIENCE = 10
+"""Watchdogs for which any other call may take before a line says what the process waits for."""
 _NUMBER = re.compile(r"-?[\d.]+|nan|inf")
 _LOOKS = 5
 """Looks at a call that takes too long until it counts as one that does not return: the whole process may have slept."""
@@ -46,6 +50,16 @@ class HardwareGuard:
         *,
         armed: bool,
     ) -> None:
+        """Guard hardware that is not configured yet.
+
+        Raises:
+            TouchlineError: a method of the contract is missing.
+        """
+        missing = [name for name in _METHODS if not callable(getattr(hardware, name, None))]
+        if missing:
+            raise TouchlineError(
+                f"the hardware {type(hardware).__name__} has no {', '.join(missing)}; write each method"
+            )
         self.state = HardwareState.UNCONFIGURED
         self.refused: list[str] = []
         """Why parts of the newest demand were not carried out."""
@@ -186,7 +200,10 @@ class HardwareGuard:
         read = self._hardware.sense(self.time)
         if not isinstance(read, SensorReadings):
             raise TypeError(f"it returned {read!r:.80}; return SensorReadings")
-        return self._checks.accept(read, self.time)
+        try:
+            return self._checks.accept(read, self.time)
+        except (TypeError, AttributeError) as error:
+            raise TypeError(f"it returned {read!r:.200}; a part has another type than the contract: {error}") from error
 
     @contextmanager
     def _held(self, name: str) -> Iterator[None]:
@@ -222,21 +239,32 @@ class HardwareGuard:
                 raise HardwareError(self._reason)
             began = self._clock.now()
             self._in_call = name, began
+            waits = None if name in _TIMED else self._said_after(name, _PATIENCE * self.settings.watchdog)
             try:
                 return method()
-            except Exception as error:
-                text = f"{name} raised {type(error).__name__}: {error}"
+            except (Exception, SystemExit) as error:
+                text = f"{name} raised {type(error).__name__}: {' '.join(str(error).split())}"
                 if name not in ("deactivate", "close"):
                     self._fail(text)
                 raise HardwareError(text) from error
             finally:
                 self._in_call = None
+                if waits is not None:
+                    waits.cancel()
                 took = self._clock.now() - began
                 call = self._calls.get(name, _Call())
                 call.add(took, self.settings.deadline if name in _TIMED else math.inf)
                 self._calls[name] = call
                 if took > self.settings.deadline and name in _TIMED:
                     self._report(f"{name} takes longer than its deadline of {1e3 * self.settings.deadline:g} ms")
+
+    def _said_after(self, name: str, seconds: float) -> threading.Timer:
+        """A thread that says after this wall time that a call has not returned."""
+        text = f"{name} has not returned for {seconds:g} s; the process waits for it"
+        waits = threading.Timer(seconds, self._report, (text,))
+        waits.daemon = True
+        waits.start()
+        return waits
 
     def _fail(self, reason: str) -> None:
         if self.state is not HardwareState.ERROR:

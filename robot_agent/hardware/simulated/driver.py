@@ -7,6 +7,8 @@ import tty
 from contextlib import suppress
 from typing import Any
 
+import msgspec
+
 from robot_agent.hardware.contract import BodyBall, Picture, SensorReadings
 from robot_agent.hardware.simulated import frames
 from robot_agent.hardware.simulated.board import BoardNumbers, settings_line
@@ -35,8 +37,10 @@ class Simulated:
 
         Raises:
             TypeError: a number that no board has.
+            ValidationError: a number of another form.
         """
-        self._wheels, self._board_numbers = model.wheels, BoardNumbers(**numbers)
+        BoardNumbers(**numbers)  # refuses unknown names, which `convert` leaves out
+        self._wheels, self._board_numbers = model.wheels, msgspec.convert(numbers, BoardNumbers)
         self._port, self._delay = port, camera_delay
         self._board: subprocess.Popen[bytes] | None = None
         self._line: int | None = None

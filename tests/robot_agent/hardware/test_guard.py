@@ -6,9 +6,10 @@ import pytest
 from pytest import approx
 
 from robot_agent.hardware import guard
-from robot_agent.hardware.contract import SensorReadings
+from robot_agent.hardware.contract import Picture, SensorReadings
 from robot_agent.hardware.dummy import Dummy
 from robot_agent.hardware.guard import HardwareError
+from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.hardware import CallHealth, Fallback, HardwareState
 from schemas.messages.radio import Motion
@@ -195,3 +196,64 @@ def test_a_call_that_does_not_return_is_an_error_that_the_watching_thread_report
     assert slow.looks == [True] * 4 + [False], "the process may have slept, and gets time to return"
     assert slow.bench.guard.state is HardwareState.ERROR
     assert slow.bench.guard.health().reason == "sense has not returned for 0.2 s"
+
+
+def test_a_class_without_a_method_of_the_contract_is_refused_before_anything_moves(bench):
+    class Half:
+        def configure(self):
+            raise AssertionError("it is configured")
+
+        def sense(self, time):
+            raise AssertionError("it is asked")
+
+    with pytest.raises(TouchlineError, match=r"^the hardware Half has no activate, actuate, deactivate, close; write"):
+        bench(dummy=Half())
+
+
+@pytest.mark.parametrize(
+    "read",
+    [
+        SensorReadings(0.0, (0.0, 0.0, 0.0)),
+        SensorReadings(0.0, Motion(x="0", y=0.0, heading=0.0)),
+        SensorReadings(0.0, None, Picture(0.0, (1.0, 2.0))),
+    ],
+)
+def test_readings_with_a_part_of_another_type_are_shown(bench, read):
+    one = bench()
+    one.guard.start()
+    one.hardware.sense = lambda time: read
+    with pytest.raises(HardwareError) as failed:
+        one.guard.sense()
+    assert f"sense raised TypeError: it returned {read!r:.200}; a part has another type than the contract" in str(
+        failed.value
+    )
+
+
+def test_hardware_that_ends_the_program_has_failed_in_one_line(bench):
+    one = bench()
+    one.guard.start()
+
+    def sense(time):
+        raise SystemExit("no\ncamera")
+
+    one.hardware.sense = sense
+    with pytest.raises(HardwareError, match=r"^sense raised SystemExit: no camera$"):
+        one.guard.sense()
+    assert one.guard.state is HardwareState.ERROR
+
+
+def test_a_close_that_does_not_return_says_what_the_process_waits_for(bench, capsys):
+    one = bench(watchdog=0.01)
+    said = ""
+
+    def close():
+        nonlocal said
+        for _ in range(1000):
+            said += capsys.readouterr().err
+            if said:
+                return
+            threading.Event().wait(0.01)
+
+    one.hardware.close = close
+    one.guard.stop()
+    assert "cyan2: close has not returned for 0.1 s; the process waits for it" in said

@@ -6,6 +6,7 @@ import random
 import time
 
 import pytest
+from msgspec import ValidationError
 from pytest import approx
 
 from robot_agent.hardware.guard import HardwareError, HardwareGuard
@@ -192,3 +193,9 @@ def test_a_command_goes_through_guard_driver_line_and_board(stepped):
     guard.stop()
     one.after(0.05)
     assert not one.board.powered
+
+
+@pytest.mark.parametrize("numbers", [{"start": [-3.0]}, {"max_speed": "3"}, {"strt": [0.0, 0.0, 0.0]}])
+def test_numbers_that_no_board_can_have_are_refused_before_one_is_started(numbers):
+    with pytest.raises((ValidationError, TypeError), match=r"start|max_speed|strt"):
+        Simulated(make_setup("msl").model_of("cyan2"), **numbers)
