@@ -215,9 +215,15 @@ class Player(ABC):
             if must_be_out and outside is not drive and not leaves(belief, self._penalty_area):
                 drive = outside
         in_test = order is not None and order.mode is CoachMode.TEST
-        if self._rule_limits.spares_opponents and not in_test and not self._plays_ball(belief):
-            drive = brake_before(belief.me, drive, belief.opponents, self.setup.robot.reach, self.limits)
+        if self._rule_limits.spares_opponents and not in_test:
+            drive = self._spare(belief, drive)
         return action if drive is action.drive else action._replace(drive=drive)
+
+    def _spare(self, belief: WorldBelief, wanted: Drive) -> Drive:
+        """The same demand, braked before opponents; a robot that plays the ball may run into them."""
+        if self._plays_ball(belief):
+            return wanted
+        return brake_before(belief.me, wanted, belief.opponents, self.setup.robot.reach, self.limits)
 
     def _plays_ball(self, belief: WorldBelief) -> bool:
         """Whether this robot has the ball, or the ball is so near that it may run into an opponent for it."""

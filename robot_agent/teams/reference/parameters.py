@@ -334,6 +334,12 @@ class Parameters:
     stepped_in: float = 0.55
     """m from the ball of a restart, from where the target stays: to turn with the ball would drag it."""
 
+    # Opponents
+    bump: float = 0.7
+    """m/s at which it may touch an opponent: two that both do are below the 1.5 m/s of a charge (`charge_speed`)."""
+    spares: float = 0.6
+    """Part of the deceleration with which it brakes before an opponent, who comes nearer meanwhile."""
+
     # Recovery
     stuck_after: float = 0.8
     """s of the stuck flag after which a robot backs out."""

@@ -6,6 +6,7 @@ import msgspec
 
 from robot_agent.sdk.bodies import Ball, Body
 from robot_agent.sdk.contract import Briefing
+from robot_agent.sdk.skills.brake_before import brake_before
 from robot_agent.sdk.world_model import WorldBelief, places_of
 from robot_agent.soccer.skills.intercept import meet, way_of
 from robot_agent.soccer.skills.keep_hold import keep_hold
@@ -104,6 +105,15 @@ class Reference(Player):
         if not belief.holding or self._last is None:
             return action
         return action._replace(drive=keep_hold(me, action.drive, self._last.drive, belief.dt, self.setup))
+
+    def _spare(self, belief: WorldBelief, wanted: Drive) -> Drive:
+        """The same demand, braked before opponents; with the ball, before those that are not beyond it."""
+        me, opponents, parameters = belief.me, belief.opponents, self.parameters
+        if belief.ball is not None and self._plays_ball(belief):
+            x, y = belief.ball.now.x - me.x, belief.ball.now.y - me.y
+            opponents = [place for place in opponents if x * (place[0] - me.x) + y * (place[1] - me.y) < 0.0]
+        limits = self.limits._replace(deceleration=parameters.spares * self.limits.deceleration)
+        return brake_before(me, wanted, opponents, self.setup.robot.reach, limits, parameters.bump, hard=True)
 
     def _carry_on(self, belief: WorldBelief, action: Action, carry: Carry) -> Action:
         """A robot that aims at the goal stops rather than lets the ball go, after which it could not shoot for 1 s."""

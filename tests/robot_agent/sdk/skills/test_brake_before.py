@@ -39,3 +39,23 @@ def test_a_robot_that_brakes_in_time_arrives_below_a_charge():
         speed = max(speed - LIMITS.deceleration * LIMITS.tick, min(due, speed + LIMITS.acceleration * LIMITS.tick))
         x, due = x + speed * LIMITS.tick, wanted.vx
     assert 0.5 < speed < 1.5
+
+
+@pytest.mark.parametrize("hard", [True, False])
+def test_a_robot_too_fast_to_stop_brakes_with_its_whole_drive_before_it_drives_around(limits, plant, hard):
+    """It has to stop within 1.2 m of air, and is to drive across the way to the opponent at full speed."""
+    robot, opponent = plant(0.0, 0.0, 0.0, 3.0, 0.0), (1.2 + 2.0 * RADIUS, 0.0)
+    fastest = 0.0
+    for _ in range(60):
+        me = robot.step(brake_before(robot.body, Drive(vy=4.0), [opponent], RADIUS, limits, hard=hard))
+        if math.dist(me[:2], opponent) < 2.0 * RADIUS:
+            fastest = max(fastest, me.vx)
+    assert (fastest > 1.5) is not hard
+
+
+def test_a_robot_that_brakes_hard_stops_across_the_way_as_demanded(limits):
+    me = Body(0.0, 0.0, 0.0, 3.0, 2.0)
+    for wanted, across in ((0.5, 0.5), (-1.0, 0.0), (3.0, 2.0)):
+        drive = brake_before(me, Drive(vx=3.0, vy=wanted), [(0.8, 0.0)], RADIUS, limits, hard=True)
+        assert drive.vy == pytest.approx(across)
+        assert drive.vx < 1.5

@@ -5,7 +5,10 @@ import math
 import pytest
 
 from robot_agent.sdk.contract import Briefing
+from robot_agent.teams.action import Action
 from robot_agent.teams.reference import Reference
+from robot_agent.teams.reference.parameters import PARAMETERS
+from schemas.messages.command import Drive
 from schemas.messages.sight import BallSight, Motion, ReceivedRadio
 
 FIELD = {"cyan1": (-10.5, 0, 0), "cyan2": (-2, 2, 0), "cyan3": (-2, -2, 0), "cyan4": (-5, 1, 0), "cyan5": (-5, -2, 0)}
@@ -109,3 +112,19 @@ def test_a_teammate_holds_the_ball_by_its_words_if_it_is_at_the_ball(setup, sigh
     sent = [command.radio.role for command in map(robot.act, sights) if command.radio is not None]
     assert sent
     assert (sent[-1] == "attacker") is not holds
+
+
+class Backward(Reference):
+    """A robot that wants to drive backward."""
+
+    def play(self, belief, order):
+        return Action("attacker", "back", Drive(vx=-2.0))
+
+
+@pytest.mark.parametrize(("ball", "opponent", "brakes"), [(0.4, -0.55, True), (-0.4, -0.8, False), (-0.4, 0.6, False)])
+def test_beside_the_ball_a_robot_brakes_before_an_opponent_that_is_not_beyond_it(
+    setup, sight_of, ball, opponent, brakes
+):
+    robot = Backward(Briefing.of("cyan2", setup))
+    command = robot.act(sight_of(1, velocity=(-2.0, 0.0, 0.0), ball=(ball, 0.0), obstacles=((opponent, 0.0),)))
+    assert command.drive.vx == (pytest.approx(-PARAMETERS.bump) if brakes else -2.0)
