@@ -9,6 +9,8 @@ from collections import Counter
 from collections.abc import Callable
 from enum import StrEnum
 
+from msgspec import Struct
+
 from robot_agent.ros2.velocity import Velocity
 from schemas.messages.command import Command, Drive, Kick
 from schemas.messages.sight import Sight
@@ -35,6 +37,15 @@ class Fault(StrEnum):
     LEFT = "left"
 
 
+class SightHead(Struct, frozen=True, gc=False):
+    """The fields of a `Sight` that an answer needs; decoding skips the others."""
+
+    tick: int
+    time: float
+    holding: bool
+    kicker_ready: bool = True
+
+
 class Answers:
     """The answers of one robot in one match."""
 
@@ -51,7 +62,7 @@ class Answers:
 
         `every` as in `Ros2Settings`.
         """
-        self.sight: Sight | None = None
+        self.sight: Sight | SightHead | None = None
         """The newest sight."""
         self.counts = counts
         self.is_driven = False
@@ -69,7 +80,7 @@ class Answers:
         self._driver, self._driven_at = b"", -math.inf
         self._contested_until = -math.inf
 
-    def see(self, sight: Sight) -> Command | None:
+    def see(self, sight: Sight | SightHead) -> Command | None:
         """A new sight, and its answer if it has one without a node; None while it waits for one."""
         if self._is_lockstep and self._is_open and self.sight is not None:
             self._note(Fault.UNANSWERED, f"no command answers tick {self.sight.tick}")

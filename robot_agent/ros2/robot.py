@@ -5,8 +5,10 @@ from collections import Counter
 from collections.abc import Callable
 from typing import Any
 
+from msgspec.json import Decoder
+
 from robot_agent.process.runner import Runner
-from robot_agent.ros2.answers import Answers, Fault
+from robot_agent.ros2.answers import Answers, Fault, SightHead
 from robot_agent.ros2.clock_keeper import ClockKeeper
 from robot_agent.ros2.sight_messages import SightMessages
 from robot_agent.ros2.velocity import read_velocity
@@ -25,6 +27,7 @@ from schemas.wire.faults import FaultError
 
 _COMMANDS = {one.message: one for one in (TWIST, TWIST_STAMPED)}
 """The types of messages that drive a robot."""
+_read_head = Decoder(SightHead).decode
 
 
 class RosRobot:
@@ -71,14 +74,15 @@ class RosRobot:
         """What sends the robot's commands."""
         self._send = send
 
-    def see(self, sight: Sight, *, is_new: bool) -> None:
-        """Publish a sight; it is answered now or later, unless it is a repetition."""
+    def see(self, sight: Sight | SightHead, *, is_new: bool) -> None:
+        """Publish a sight, unless it is a head; it is answered now or later, unless it is a repetition."""
         answers = self._answers
         assert answers is not None
         if is_new:
             with self._lock:
                 self._answer(answers.see(sight))
-        self.messages.publish(sight, self.counts)
+        if isinstance(sight, Sight):
+            self.messages.publish(sight, self.counts)
         self._keeper.seen(self.name, sight.tick, round(sight.time * 1e9))
 
     def _receiver(self, topic_type: TopicType) -> Callable[[Arrived], None]:
@@ -149,8 +153,8 @@ class RosRobot:
 
     def _name_of(self, gid: bytes) -> str:
         """The node that publishes commands with this identity; some libraries announce another one in their token."""
-        known = list(self._drivers.values())
-        return self._drivers.get(gid, known[0] if len(known) == 1 else "a node without a name")
+        known = self._drivers
+        return known.get(gid) or (next(iter(known.values())) if len(known) == 1 else "a node without a name")
 
     def _answer(self, command: Command | None) -> None:
         if command is not None and self._send is not None:
@@ -171,7 +175,16 @@ class RosRunner(Runner):
         self._published_at = 0.0
         robot.answer_by(self._answer_with)
 
-    def answer(self, sight: Sight) -> None:
+    def read(self, payload: bytes) -> Any:
+        """The sight in a payload, or its head while no node reads it; None if it is none, which is counted."""
+        if not self._robot.messages.is_read:
+            try:
+                return _read_head(payload)
+            except (ValueError, RecursionError):
+                pass  # what reads all of it says why
+        return super().read(payload)
+
+    def answer(self, sight: Sight | SightHead) -> None:
         """Publish the sight. It is answered once a node has sent its command; one that is sent again, again."""
         self._clock.sim_ns = round(sight.time * 1e9)
         is_new = sight.tick != self._last_tick

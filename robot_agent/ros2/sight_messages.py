@@ -61,10 +61,13 @@ class SightMessages:
         for name, sensor in self._ranges.items():
             yield self._build.transform(stamp, self._base, f"{self.robot}/{name}", *sensor.mount, 0.0)
 
+    @property
+    def is_read(self) -> bool:
+        """Whether anybody reads one of the messages."""
+        return self._transforms.is_read or any(writer.is_read for writer in self.writers.values())
+
     def publish(self, sight: Sight, faults: Mapping[str, int]) -> None:
         """Publish what somebody reads; `faults` are the counts of what was wrong with commands."""
-        if not self._transforms.is_read and not any(writer.is_read for writer in self.writers.values()):
-            return
         build, now_ns = self._build, round(sight.time * 1e9)
         header = build.header(build.stamp(now_ns), self._odometry_frame)
         if self._transforms.is_read:

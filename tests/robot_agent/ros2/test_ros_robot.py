@@ -11,7 +11,7 @@ from zenoh import ext
 
 pytest.importorskip("xxhash")
 
-from robot_agent.ros2.answers import Fault
+from robot_agent.ros2.answers import Fault, SightHead
 from robot_agent.ros2.clock_keeper import ClockKeeper
 from robot_agent.ros2.robot import RosRobot, RosRunner
 from runtime.process.clock import WallClock
@@ -24,6 +24,7 @@ from runtime.ros2.topic_type import TopicType
 from schemas.config.sensors.range import RangeFinder, RangeReading
 from schemas.messages.command import Drive, KickMode
 from schemas.messages.setup import Setup
+from schemas.messages.sight import Sight
 from schemas.topics import COMMAND, SIGHT
 from support.in_process_bus import SharedState
 from support.messages import make_setup, make_sight
@@ -176,6 +177,17 @@ def test_a_sight_becomes_odometry_ball_obstacles_and_game_in_the_frame_of_the_ro
     (state,) = wait_for(lambda: game)
     assert (state.phase, state.stage, state.running) == ("play", "regular", True)
     assert math.isnan(state.spot_x)
+
+
+def test_a_sight_is_read_whole_only_while_a_node_reads_it(bench: Bench):
+    runner, payload = bench.runners[ROBOT], make_sight(7, ROBOT, holding=True).encode()
+    assert runner.read(payload) == SightHead(tick=7, time=0.14, holding=True, kicker_ready=True)
+    assert runner.read(b'{"tick": "soon"}') is None
+    assert runner.read(b"[" * 100_000) is None
+    assert runner.invalid == 2
+    bench.hear(f"/{ROBOT}/ball", types.BALL)
+    all_read(bench, "ball")
+    assert runner.read(payload) == Sight.decode(payload)
 
 
 def test_a_ball_that_was_never_seen_is_not_known(bench: Bench):
