@@ -29,8 +29,8 @@ def os_errors(what: object, remedy: str) -> Iterator[None]:
         raise TouchlineError(f"{what or error.filename}: {error.strerror or error}; {remedy}") from None
 
 
-def did_you_mean(word: str, known: Iterable[str]) -> str:
+def did_you_mean(word: object, known: Iterable[str]) -> str:
     """`did you mean "x"?` with the nearest known word, or the list of all known words."""
     choices = list(known)
-    close = difflib.get_close_matches(word, choices, n=1)
+    close = difflib.get_close_matches(str(word), choices, n=1)
     return f'did you mean "{close[0]}"?' if close else "known: " + ", ".join(choices)

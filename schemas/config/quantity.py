@@ -117,7 +117,7 @@ def check_value(value: Any, meaning: Quantity | Choice, kind: Any, at: str) -> A
     """
     if isinstance(meaning, Choice):
         if value not in meaning.options:
-            raise TouchlineError(f"{at} is {value!r}; {did_you_mean(str(value), meaning.options)}")
+            raise TouchlineError(f"{at} is {value!r}; {did_you_mean(value, meaning.options)}")
         return value
     if get_origin(kind) is tuple:
         if not isinstance(value, list):

@@ -55,7 +55,7 @@ class Fault(NamedTuple):
             case FaultKind.MISSING:
                 return f"{where} is missing; {remedy or 'it must be given'}"
             case FaultKind.UNKNOWN:
-                others = f"; {did_you_mean(str(self.path[-1]), self.known)}" if self.known else ""
+                others = f"; {did_you_mean(self.path[-1], self.known)}" if self.known else ""
                 return f"{where} is not known{others}"
         if self.kind is FaultKind.RULE and not where:
             return self.expected

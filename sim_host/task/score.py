@@ -15,9 +15,10 @@ import json
 import math
 import random
 import traceback
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Real
 from typing import Any
 
 from schemas.config.sections import Pitch
@@ -119,13 +120,14 @@ def call_score(task: TaskConfig, function: ScoreFunction, now: Moment) -> Score:
     except Exception as error:
         raise _fault(task, error, f" at tick {now.tick}") from error
     score = returned if isinstance(returned, Score) else Score(returned)
-    for number in (score.value, score.reward if score.reward is not None else 0.0):
-        if isinstance(number, bool) or not isinstance(number, int | float) or not math.isfinite(number):
+    numbers: tuple[object, ...] = (score.value, score.reward if score.reward is not None else 0.0)
+    for number in numbers:
+        if isinstance(number, bool) or not isinstance(number, Real) or not math.isfinite(number):
             raise TouchlineError(
                 f'task.score is "{task.score}"; at tick {now.tick} it returned {number!r}; '
                 "return a finite number, or a Score with one"
             )
-    if isinstance(score.events, str):
+    if isinstance(score.events, str) or not isinstance(score.events, Iterable):
         raise TouchlineError(
             f'task.score is "{task.score}"; at tick {now.tick} its events are {score.events!r}; '
             "return a list of sentences"

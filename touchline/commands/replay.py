@@ -1,6 +1,5 @@
 """`touchline replay`: a recording back onto the bus."""
 
-import math
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
@@ -147,9 +146,7 @@ def replay(
     from touchline.launch.page import open_page, serve_page_beside
     from touchline.launch.replay_run import run_replay
 
-    for option, value in (("--rate", rate), ("--behind", behind)):
-        if not math.isfinite(value):
-            raise TouchlineError(f"{option} is {value}; give a number")
+    options.check_numbers(rate=rate, behind=behind)
     settings = ReplaySettings(
         files[0],
         start=start,

@@ -87,6 +87,7 @@ def run(
     from touchline.matches.task.episodes import episodes_of, result_of
     from touchline.matches.task.task import load_task
 
+    options.check_numbers(at_least=at_least, below=below)
     loaded = load_task(task, brain_of(brain) if brain is not None else None, options.settings_of(change or []))
     planned = episodes_of(loaded, _seeds(episodes, seeds))
     played = play_list(planned, jobs, loaded.name, _sentence, json=json)

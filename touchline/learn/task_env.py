@@ -20,7 +20,7 @@ from touchline.learn.sight_space import SightSpace
 from touchline.matches.task.task import Task, load_task
 from touchline.policy.control import Control
 from touchline.policy.entries import Entry
-from touchline.policy.interface import Interface
+from touchline.policy.interface import SETTINGS, Interface
 from touchline.policy.observation import Observation
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
 
         Args:
             robots: those of the task's side that are agents, all by default; the others are played by their brain.
-            parameters: of the team, such as `decision_ticks`, see `touchline.policy.interface`.
+            parameters: of the team: settings of `touchline.policy.interface`, or those that its match file names.
             overrides: keys of the match file, with dots, such as `teams.magenta.brain`.
             observation: `vector`, or `sight` for a `schemas.messages.sight.Sight`, whose parts must not be changed.
             advice: infos have the action `advice`: what the brain in the match file would do now in the agent's place.
@@ -73,16 +73,23 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         Raises:
             TouchlineError: there is no such task, robot or kind of observation, or the match file is invalid.
         """
-        side = load_task(task, overrides=overrides).side.value
-        given = {f"teams.{side}.parameters.{name}": value for name, value in (parameters or {}).items()}
+        plain = load_task(task, overrides=overrides)
+        known = [*SETTINGS, *plain.config.team(plain.side).parameters]
+        for name in parameters or {}:
+            if name not in known:
+                raise TouchlineError(
+                    f"{name!r} is no parameter of a policy, and one of a brain goes into overrides; "
+                    + did_you_mean(name, known)
+                )
+        given = {f"teams.{plain.side.value}.parameters.{name}": value for name, value in (parameters or {}).items()}
         self._task = load_task(task, overrides={**(overrides or {}), **given})
         if observation not in OBSERVATIONS:
             raise TouchlineError(f'observation is "{observation}"; {did_you_mean(observation, OBSERVATIONS)}')
         modes = self.metadata["render_modes"]
         if render_mode not in (None, *modes):
-            raise TouchlineError(f'render_mode is "{render_mode}"; {did_you_mean(str(render_mode), modes)}')
-        if max_cycles is not None and max_cycles < 1:
-            raise TouchlineError(f"max_cycles is {max_cycles}; give a number of steps, or leave it out")
+            raise TouchlineError(f'render_mode is "{render_mode}"; {did_you_mean(render_mode, modes)}')
+        if max_cycles is not None and (not _is_whole(max_cycles) or max_cycles < 1):
+            raise TouchlineError(f"max_cycles is {max_cycles!r}; give a whole number of steps, or leave it out")
         self.render_mode = render_mode
         self.possible_agents = _agents(self._task, robots)
         self.agents: list[str] = []
@@ -96,6 +103,10 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         if advice and self._corrects:
             raise TouchlineError("there is no advice on corrections; leave out advice=True or the parameter corrects")
         self._lay_out()
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All but the episode and its window, which belong to this process: a copy begins with `reset`."""
+        return {**self.__dict__, "_episode": None, "_window": None, "agents": []}
 
     def _lay_out(self) -> None:
         """Determine all layouts and spaces, which no episode changes."""
@@ -139,14 +150,16 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
             TouchlineError: the seed is no whole number from 0 to 2^63 - 1, a brain cannot be loaded, the recording
                 cannot be written, or no window can be opened.
         """
+        record = (options or {}).get("record")
+        if not isinstance(record, str | Path | None):
+            raise TouchlineError(f"record is {record!r}; give the path of an MCAP file")
         if seed is None:
             seed = int(self._seeds.integers(2**31))
-        elif isinstance(seed, bool) or not isinstance(seed, int | np.integer) or not 0 <= seed < 2**63:
+        elif not _is_whole(seed) or not 0 <= seed < 2**63:
             raise TouchlineError(f"seed is {seed!r}; give a whole number from 0 to 2^63 - 1")
         else:
             self._seeds = np.random.default_rng(seed)
         self._end()
-        record = (options or {}).get("record")
         self._seed = int(seed)
         self._episode = self._begin(self._seed, Path(record) if record is not None else None)
         self.agents, self._cycles = [*self.possible_agents], 0
@@ -306,12 +319,18 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
 
     def _known(self, agent: str) -> str:
         if agent not in self.action_spaces:
-            raise TouchlineError(f"{agent!r} is no agent; {did_you_mean(str(agent), self.possible_agents)}")
+            raise TouchlineError(f"{agent!r} is no agent; {did_you_mean(agent, self.possible_agents)}")
         return agent
+
+
+def _is_whole(value: object) -> bool:
+    return isinstance(value, int | np.integer) and not isinstance(value, bool)
 
 
 def _agents(task: Task, robots: Sequence[str] | None) -> list[str]:
     """The robots of a task that are agents: all, or those that are named."""
+    if isinstance(robots, str):
+        raise TouchlineError(f'robots is "{robots}"; give a list of names')
     chosen = list(dict.fromkeys(task.robots if robots is None else robots))
     for robot in chosen:
         if robot not in task.robots:

@@ -11,7 +11,7 @@ They are parameters of the team in the match file, so that training and match re
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Self
 
 from schemas.config.match_parts import Parameter
@@ -56,6 +56,10 @@ class Interface:
             act=_words(parameters, "act", ACTS),
             corrects=corrects,
         )
+
+
+SETTINGS = tuple(field.name for field in fields(Interface))
+"""Names of the settings."""
 
 
 def _words(parameters: Mapping[str, Parameter], name: str, known: tuple[str, ...]) -> tuple[str, ...]:

@@ -64,7 +64,7 @@ def identify(
     side = _by_name(team, names) if isinstance(team, str) else None
     if side is None:
         known = [side.value for side in Side] + list(names.values())
-        raise UnknownTeamError(f'no team is called "{str(team)[:_MAX_WORD]}"; {did_you_mean(str(team), known)}')
+        raise UnknownTeamError(f'no team is called "{str(team)[:_MAX_WORD]}"; {did_you_mean(team, known)}')
     return Identity(side, called, protocol)
 
 

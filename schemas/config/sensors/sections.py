@@ -44,7 +44,7 @@ def _read(table: dict[str, Any], where: str, at: str, origins: dict[str, str], b
     kind = table.pop("kind", before.kind if before is not None else None)
     if not isinstance(kind, str) or kind not in KINDS:
         given = "missing" if kind is None else repr(kind)
-        raise TouchlineError(f"{where}: {at}.kind is {given}; {did_you_mean(str(kind), KINDS)}")
+        raise TouchlineError(f"{where}: {at}.kind is {given}; {did_you_mean(kind, KINDS)}")
     numbers: Any = KINDS[kind].numbers
     values = read_changes(numbers, table, where, at, origins)
     if before is not None and before.kind == kind:

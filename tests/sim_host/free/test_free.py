@@ -246,6 +246,10 @@ RUNTIME = {
         "import touchline; return touchline.Score(1.0, events='box 2 is delivered')",
         "at tick 1 its events are 'box 2 is delivered'; return a list of sentences",
     ),
+    "events that are a number": (
+        "import touchline; return touchline.Score(1.0, events=3)",
+        "at tick 1 its events are 3; return a list of sentences",
+    ),
     "a memory that is no JSON": (
         "import touchline; return touchline.Score(1.0, memory=now)",
         "its memory is no JSON: Object of type Moment",
@@ -259,6 +263,13 @@ def test_a_fault_of_the_score_is_one_line_with_its_place(tmp_path: Path, body: s
     with pytest.raises(TouchlineError, match='task.score is "tally:count"; ' + said):
         while not simulation.over:
             simulation.step({})
+    simulation.close()
+
+
+def test_a_score_may_be_any_number_of_numpy(tmp_path: Path) -> None:
+    simulation = Simulation(free_match(tmp_path, "import numpy\ndef count(now):\n    return numpy.float32(0.5)\n"))
+    simulation.step({})
+    assert type(simulation.state.value) is float and simulation.state.value == 0.5
     simulation.close()
 
 

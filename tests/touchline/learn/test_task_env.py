@@ -1,5 +1,7 @@
 """The environment of a team: PettingZoo's own tests, what a step is, and one clear error for each wrong call."""
 
+import copy
+import pickle
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -244,8 +246,14 @@ def test_a_recording_ends_with_the_next_reset(rovers: Callable[..., TaskEnv], tm
     [
         ({"robots": ["ome"]}, 'ome does not do this task; did you mean "one"?'),
         ({"robots": []}, "no robot is an agent"),
+        ({"robots": "one"}, 'robots is "one"; give a list of names'),
+        ({"robots": [1]}, "1 does not do this task; known: one, two"),
         ({"observation": "sigth"}, 'did you mean "sight"?'),
-        ({"max_cycles": 0}, "max_cycles is 0; give a number of steps, or leave it out"),
+        ({"max_cycles": 0}, "max_cycles is 0; give a whole number of steps, or leave it out"),
+        ({"max_cycles": 2.5}, "max_cycles is 2.5; give a whole number"),
+        ({"max_cycles": "9"}, "max_cycles is '9'; give a whole number"),
+        ({"observation": 3}, 'observation is "3"; known: vector, sight'),
+        ({"parameters": {"decision_tick": 3}}, 'did you mean "decision_ticks"?'),
         ({"parameters": {"decision_ticks": 0}}, "decision_ticks is 0; write a whole number from 1 to 1000"),
         ({"parameters": {"observe": "motoin"}}, 'names "motoin"; did you mean "motion"?'),
         ({"parameters": {"act": "vx omga"}}, 'names "omga"; did you mean "omega"?'),
@@ -304,6 +312,32 @@ def test_what_a_brain_beside_the_learners_raises_is_noted_with_robot_and_tick(
         with pytest.raises(ValueError, match=r"^no idea\nmagenta1, tick 0$"):
             env.step(still(env))
         env.close()
+
+
+@pytest.mark.parametrize("observation", ["vector", "sight"])
+def test_a_copy_of_an_environment_begins_episodes_of_its_own(rovers: Callable[..., TaskEnv], observation: str) -> None:
+    env = rovers(observation=observation)
+    env.reset(3)
+    for copied in (copy.copy(env), copy.deepcopy(env), pickle.loads(pickle.dumps(env))):
+        with pytest.raises(TouchlineError, match="call reset"):
+            copied.step(still(env))
+        observations, _ = copied.reset(4)
+        copied.close()
+        assert all(copied.observation_space(agent).contains(seen) for agent, seen in observations.items())
+        assert env.action_space("one") == copied.action_space("one")
+    *_, infos = env.step(still(env))
+    assert (infos["one"]["seed"], infos["one"]["tick"]) == (3, 5)
+
+
+def test_parameters_that_the_match_file_names_may_be_given() -> None:
+    env = keepaway(overrides={"teams.cyan.parameters.lead": 1.0}, parameters={"lead": 2.0})
+    env.reset(1)
+    env.close()
+
+
+def test_a_recording_without_a_path_is_one_clear_error(rovers: Callable[..., TaskEnv]) -> None:
+    with pytest.raises(TouchlineError, match="record is 3; give the path of an MCAP file"):
+        rovers().reset(1, {"record": 3})
 
 
 @pytest.mark.parametrize("seed", [-1, 2**63, 1.5, True, "one"])

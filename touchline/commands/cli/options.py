@@ -1,6 +1,7 @@
 """Options shared by several commands, and groups of them."""
 
 import importlib.util
+import math
 import shlex
 import tomllib
 from dataclasses import dataclass
@@ -63,6 +64,17 @@ Dask = Annotated[
     str | None,
     typer.Option(metavar="ADDRESS", help="Play on the workers of this Dask scheduler: tcp://192.168.1.5:8786."),
 ]
+
+
+def check_numbers(**given: float | None) -> None:
+    """Check options that are numbers, by the names of their parameters.
+
+    Raises:
+        TouchlineError: one is not finite.
+    """
+    for name, value in given.items():
+        if value is not None and not math.isfinite(value):
+            raise TouchlineError(f"--{name.replace('_', '-')} is {value}; give a number")
 
 
 def program_of(stdio: str | None) -> list[str]:

@@ -99,6 +99,11 @@ def test_a_score_below_the_bound_is_a_status_of_1(own: str, bound: str, status: 
     assert ("less than --at-least 5" in result.stderr) == (status == 1)
 
 
+def test_a_bound_that_is_no_number_is_refused_before_anything_is_played(own: str) -> None:
+    result = task("run", own, "--at-least", "nan")
+    assert (result.exit_code, result.output) == (2, "touchline: --at-least is nan; give a number\n")
+
+
 def test_failures_leave_recordings_that_verify_and_the_events_that_they_share(own: str, tmp_path: Path) -> None:
     result = task("run", own, "--episodes", "8", "--failures", "3", "--out", tmp_path / "kept", "--json")
     assert result.exit_code == 0, result.output
