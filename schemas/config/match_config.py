@@ -107,11 +107,11 @@ class MatchConfig(ConfigModel):
     """
     profile: str = "msl"
     """A shipped profile by name, or the path of the file that `profile_tables` was read from."""
-    profile_tables: dict[str, Any] | None = None
+    profile_tables: dict[str, Any] | None = Field(default=None, repr=False)
     """All tables of the profile and of the profiles that it extends; None for the shipped profile."""
     rules: str = "friendly"
     """A shipped rule book by name, or the path of the file that `rule_book_tables` was read from."""
-    rule_book_tables: dict[str, Any] | None = None
+    rule_book_tables: dict[str, Any] | None = Field(default=None, repr=False)
     """All tables of the rule book and of the rule books that it extends; None for the shipped rule book."""
     teams: TeamConfigs = Field(default_factory=TeamConfigs)
     """Both teams."""
@@ -267,8 +267,25 @@ def load_match(path: Path | str | None, overrides: dict[str, Any] | None = None)
             _drop_program(content["teams"], _REMOTE_KEYS[key])
     if content.get("scene") is not None and content.get("obstacles"):
         raise TouchlineError(f"{where}: a match that starts in a scene has the scene's obstacles; write these there")
+    _check_robots(content, overrides or {}, where)
     content = with_program(_with_number_files(_with_scene(content), where), where, folders)
     return _validate(content, where)
+
+
+def _check_robots(content: dict[str, Any], overrides: dict[str, Any], where: str) -> None:
+    """Refuse what gives a side's robots twice; an override may replace the robots of a file by a scene."""
+    teams, is_scene = content.get("teams"), content.get("scene") is not None
+    for side in Side:
+        team = teams.get(side.value) if isinstance(teams, dict) else None
+        if not isinstance(team, dict):
+            continue
+        for key in ("size", "robots", "types"):
+            at = f"teams.{side.value}.{key}"
+            if is_scene and key in team and (at in overrides or "scene" not in overrides):
+                raise TouchlineError(f"{where}: a match that starts in a scene has the scene's robots; leave {at} out")
+        size, named = team.get("size"), team.get("robots")
+        if size is not None and isinstance(named, list) and len(named) not in (0, size):
+            raise TouchlineError(f"{where}: teams.{side.value} has size = {size} and names {named}; leave one out")
 
 
 def _with_scene(content: dict[str, Any]) -> dict[str, Any]:

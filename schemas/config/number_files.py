@@ -68,7 +68,7 @@ class NumberFiles:
             return (resources.files("schemas") / self.folder / f"{name}.toml").read_text("utf-8")
         if not name.endswith(".toml"):
             known = did_you_mean(name, self.shipped)
-            raise TouchlineError(f'{self.kind} is "{name}"; {known} Or give a path that ends in .toml')
+            raise TouchlineError(f'{self.kind} is "{name}"; give a name, or a path that ends in .toml; {known}')
         with os_errors(f'{self.kind} is "{name}"', f"give one of {', '.join(self.shipped)}"):
             return Path(name).read_text("utf-8")
 

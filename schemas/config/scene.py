@@ -15,7 +15,7 @@ from schemas.config.obstacle import MAX_OBSTACLES, ObstacleConfig
 from schemas.config.roster import MAX_ROBOTS, RESERVED, Placement, RosterEntry
 from schemas.config.soccer.drill import Drill, Variation
 from schemas.config.toml_file import validate_tables, with_files
-from schemas.errors import did_you_mean
+from schemas.errors import TouchlineError, did_you_mean
 from schemas.side import Side
 from schemas.soccer.game import RESTARTS, SIDED, Phase
 from schemas.wire.message import Name
@@ -167,7 +167,7 @@ class Scene(ConfigModel):
         for occurred in [*self.drill.success, *self.drill.failure] if self.drill is not None else []:
             _, colon, who = occurred.partition(":")
             if colon and who not in (*Side, *names):
-                raise ValueError(f'drill names "{occurred}"; {did_you_mean(who, [*Side, *names])}')
+                raise ValueError(f'drill names "{occurred}"; known: {", ".join((*Side, *names))}')
         return self
 
     def of(self, side: Side) -> list[SceneRobot]:
@@ -216,5 +216,7 @@ def load_scene(name: str) -> Scene:
         TouchlineError: there is no such scene, or it is invalid; names file, key, value and remedy.
     """
     content = with_files(NumberFiles("scene", "scenes", tuple(shipped_scenes())).read(name), Path(name).parent)
+    if "teams" in content:
+        raise TouchlineError(f"{name}: a match file; give a scene, which has [[robots]] and no teams")
     content.setdefault("name", Path(name).stem)
     return validate_tables(Scene, content, name, REMEDIES)

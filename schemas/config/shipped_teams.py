@@ -36,4 +36,4 @@ def wrong_team(team: str) -> str:
     if team in SHIPPED_TEAMS or _SPEC.fullmatch(team) or policy_file(team):
         return ""
     hint = "" if ":" in team else f"; {did_you_mean(team, SHIPPED_TEAMS)}"
-    return f'write "module:Class", "policy:FILE", or the name of a shipped team{hint}'
+    return f'write "module:Class", "policy:FILE.zip", "policy:FILE.npz", or the name of a shipped team{hint}'

@@ -88,7 +88,7 @@ class TaskConfig(ConfigModel):
     """The side that does the task: its robots are played by the brain or the policy that is scored."""
     zones: Annotated[list[Zone], Field(max_length=100)] = Field(default_factory=list)
     """Parts of the floor that the score names."""
-    program: str = ""
+    program: str = Field(default="", repr=False)
     """Text of the score's module; a match file gives none."""
 
     @model_validator(mode="after")

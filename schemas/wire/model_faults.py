@@ -11,8 +11,9 @@ from schemas.wire.faults import PLAIN_TYPES, Fault, FaultError, FaultKind, Path,
 
 
 def fault_of(error: ValidationError, kind: Any = None) -> Fault:
-    """The first fault that pydantic found in content for a `kind` of model."""
-    first = error.errors(include_url=False)[0]
+    """The first unknown, missing or invalid field of content for a `kind` of model."""
+    found = error.errors(include_url=False)
+    first = next((one for one in found if one["type"] == "extra_forbidden"), found[0])  # a misspelt one is missing, too
     path = tuple(step for step in first["loc"] if step not in _TYPE_STEPS)
     value, context = first["input"], first.get("ctx", {})
     match first["type"]:
@@ -91,8 +92,9 @@ def _kind_at(kind: Any, path: Path) -> Any:
 
 
 def _field_names(kind: Any) -> tuple[str, ...]:
-    """The fields of a model; empty for any other type."""
-    return tuple(kind.model_fields) if isinstance(kind, type) and issubclass(kind, BaseModel) else ()
+    """The fields of a model that people write: those that its representation has; empty for any other type."""
+    fields = kind.model_fields if isinstance(kind, type) and issubclass(kind, BaseModel) else {}
+    return tuple(name for name, field in fields.items() if field.repr)
 
 
 def _bare(hint: Any) -> Any:

@@ -55,7 +55,13 @@ class Network:
         return units
 
     def save(self, path: Path) -> None:
-        """Write the network into a file that ends in `.npz`."""
+        """Write the network into a file.
+
+        Raises:
+            TouchlineError: its name does not end in `.npz`, by which `policy:FILE` knows what it holds.
+        """
+        if path.suffix != ".npz":
+            raise TouchlineError(f"{path}: the name of a saved network ends in .npz")
         arrays: dict[str, Any] = {}
         for number, (weights, offsets) in enumerate(self._layers):
             arrays |= {f"weights{number}": weights, f"offsets{number}": offsets}

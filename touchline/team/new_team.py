@@ -44,6 +44,7 @@ def _why_not(name: str, folder: Path) -> str | None:
         return f'the name is "{name}"; write lower-case letters, digits and _, beginning with a letter, such as my_team'
     if folder.exists():
         return f"{folder} exists already; choose another name, or --in another folder"
-    if util.find_spec(name) is not None:
-        return f'the name is "{name}", which is a module of Python or of an installed package; choose another'
+    found = util.find_spec(name)
+    if found is not None and found.origin is not None:  # a module hides folders of its name
+        return f'the name is "{name}", which another module has ({found.origin}); choose another'
     return None

@@ -86,7 +86,7 @@ class Facts:
         if name not in OCCURRENCES:
             raise ValueError(f'"{what}": {did_you_mean(name, OCCURRENCES)}')
         if colon and who not in (*Side, *self.robots):
-            raise ValueError(f'"{what}": {did_you_mean(who, [*Side, *self.robots])}')
+            raise ValueError(f'"{what}": known: {", ".join((*Side, *self.robots))}')
         return [one for one in self.occurrences if one.is_meant_by(what)]
 
     def has(self, what: str) -> bool:

@@ -125,7 +125,8 @@ def test_a_plain_function_is_a_brain(here, briefing, sight_of):
     [
         (
             "students_team",
-            'brain is "students_team"; write "module:Class", "policy:FILE", or the name of a shipped team; known: nub',
+            'brain is "students_team"; write "module:Class", "policy:FILE.zip", "policy:FILE.npz", or the name of a '
+            "shipped team; known: nub",
         ),
         ("simpel", 'did you mean "simple"?'),
         ("stu-dents:Team", 'brain is "stu-dents:Team"; write "module:Class"'),

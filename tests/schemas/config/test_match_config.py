@@ -53,6 +53,13 @@ def test_the_name_of_a_shipped_team_is_a_brain(tmp_path: Path) -> None:
             "scene.robots.0.side is 'blue'; write cyan or magenta",
         ),
         ("[profile_tables]", 'profile_tables is not for match files; write profile = "FILE.toml"'),
+        ("matsch = 1", "known: name, seed, pace, duration, scene, profile, rules, teams, types,"),
+        ('[task]\nscre = "a:b"', 'task.scre is not known; did you mean "score"?'),
+        ('[teams.cyan]\nsize = 5\nrobots = ["a"]', "teams.cyan has size = 5 and names ['a']; leave one out"),
+        *(
+            (f'scene = "penalty"\n[teams.magenta]\n{key}', f"the scene's robots; leave teams.magenta.{key[:4]}")
+            for key in ("size = 1", 'robots = ["a"]', 'types = { magenta1 = "keeper" }')
+        ),
         ("obstacles = 3", "obstacles is 3; write [[obstacles]]"),
         (
             "[[obstacles]]\nname = 'a'\nshape = 'box'\nplace = [0, 0]\nsize = [1, 1, 1]\n" * 101,
@@ -104,6 +111,14 @@ def test_flags_override_the_file_by_the_same_names(tmp_path: Path) -> None:
     assert (match.seed, match.pace, match.speed) == (7, "realtime", 1.0)
     assert match.teams.cyan.name == "Reds"
     assert len(match.robots(Side.CYAN)) == 3
+
+
+def test_a_scene_may_replace_the_robots_of_a_file(tmp_path: Path) -> None:
+    path = tmp_path / "cup.toml"
+    path.write_text("[teams.cyan]\nsize = 4\n")
+    assert load_match(path, {"scene": "kick_off"}).scene is not None
+    with pytest.raises(TouchlineError, match=r"leave teams\.cyan\.size out"):
+        load_match(path, {"scene": "kick_off", "teams.cyan.size": 3})
 
 
 def test_a_team_with_only_a_size_has_the_shipped_brain() -> None:

@@ -61,7 +61,11 @@ def test_what_a_file_leaves_out_is_play_with_the_ball_at_the_centre(tmp_path: Pa
 
 WRONG = {
     "an end that is none": (GOOD + '[drill]\nseconds = 5\nsuccess = ["gaol:cyan"]\n', 'did you mean "goal"'),
-    "an end of a robot that is none": (GOOD + '[drill]\nseconds = 5\nsuccess = ["goal:cyan9"]\n', 'names "goal:cyan9"'),
+    "an end of a robot that is none": (
+        GOOD + '[drill]\nseconds = 5\nsuccess = ["goal:cyan9"]\n',
+        '"goal:cyan9"; known: cyan, magenta,',
+    ),
+    "a match file": (GOOD + "[teams.cyan]\nsize = 1\n", "two.toml: a match file; give a scene"),
     "a drill without its time": (GOOD + '[drill]\nsuccess = ["goal"]\n', "drill.seconds is missing; simulated time"),
     "a drill of no time": (GOOD + "[drill]\nseconds = 0\n", "drill.seconds"),
     "a body that is none": (GOOD + '[[vary]]\nbody = "bal"\nx = 1\n', 'did you mean "ball"'),
@@ -101,7 +105,7 @@ def test_a_wrong_file_is_reported_with_file_key_value_and_remedy(tmp_path: Path,
 
 
 def test_a_missing_scene_is_reported_with_the_existing_ones() -> None:
-    with pytest.raises(TouchlineError, match='scene is "penlty"; did you mean "penalty"'):
+    with pytest.raises(TouchlineError, match=r'"penlty"; give a name, .*; did you mean "penalty"'):
         load_scene("penlty")
     with pytest.raises(TouchlineError, match=r"no\.toml"):
         load_scene("no.toml")

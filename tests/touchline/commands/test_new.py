@@ -48,15 +48,24 @@ def test_its_files_bear_the_name_of_the_team(tmp_path: Path) -> None:
     [
         ("My-Team", "write lower-case letters, digits and _"),
         ("class", "write lower-case letters, digits and _"),
-        ("json", "is a module of Python or of an installed package"),
-        ("robot_agent", "is a module of Python or of an installed package"),
+        ("sys", "another module has (built-in); choose another"),
+        ("json", "json/__init__.py); choose another"),
+        ("robot_agent", "robot_agent/__init__.py); choose another"),
     ],
 )
 def test_a_name_that_is_none_for_a_module_is_refused_in_one_line(tmp_path: Path, name: str, reason: str) -> None:
     refused = run.invoke(app, ["new", name, "--in", str(tmp_path)])
     assert refused.exit_code == 2
-    assert reason in refused.output
+    assert reason in refused.output.replace("\n", "")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_team_may_have_the_name_of_another_folder_on_the_path(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "before" / "far_team").mkdir(parents=True)
+    monkeypatch.syspath_prepend(tmp_path / "before")
+    assert run.invoke(app, ["new", "far_team", "--in", str(tmp_path)]).exit_code == 0
 
 
 def test_a_folder_that_exists_is_left_alone(tmp_path: Path) -> None:

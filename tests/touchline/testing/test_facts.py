@@ -106,7 +106,8 @@ def test_what_did_not_happen_is_named_in_the_message(play: ScenePlayer) -> None:
 
 
 @pytest.mark.parametrize(
-    ("what", "said"), [("shoot", 'did you mean "shot"'), ("shot:cyan9", "did you mean .cyan"), ("shot:", "known")]
+    ("what", "said"),
+    [("shoot", 'did you mean "shot"'), ("shot:cyan9", "known: cyan, magenta, cyan2"), ("shot:", "known")],
 )
 def test_a_name_that_is_none_is_an_error_and_not_an_absence(shot: Facts, what: str, said: str) -> None:
     with pytest.raises(ValueError, match=said):

@@ -75,7 +75,7 @@ def load_task(name: str, brain: str | None = None, overrides: Mapping[str, Any] 
         TouchlineError: there is no such task, or its file is invalid or has no table `task`.
     """
     if not name.endswith(".toml") and name not in (known := shipped_tasks()):
-        raise TouchlineError(f'no task is named "{name}"; {did_you_mean(name, known)}, or give the path of a .toml')
+        raise TouchlineError(f'no task is named "{name}"; give a name or a .toml file; {did_you_mean(name, known)}')
     path = Path(name) if name.endswith(".toml") else Path(str(_SHIPPED / f"{name}.toml"))
     config = load_match(path, dict(overrides or {}))
     if config.task is None:

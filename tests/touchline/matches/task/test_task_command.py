@@ -164,7 +164,10 @@ def test_a_brain_that_raises_is_named_and_its_episode_has_no_score(own: str) -> 
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("keepaway_3vv",), 'no task is named "keepaway_3vv"; did you mean "keepaway_3v2"'),
+        (
+            ("keepaway_3vv",),
+            'no task is named "keepaway_3vv"; give a name or a .toml file; did you mean "keepaway_3v2"',
+        ),
         (("get_there.toml", "--episodes", "2", "--seeds", "1-2"), "--episodes 2 and --seeds 1-2 are both given"),
         (("plain.toml",), "plain.toml is a match without a score; write [task]"),
         (("missing.toml",), "missing.toml"),
