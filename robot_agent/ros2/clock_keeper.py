@@ -63,14 +63,14 @@ class ClockKeeper:
 
     def _publish_clock(self) -> None:
         self._missing, self._published_at = set(), self._graph.clock.now()
-        while (received := self._states.receive()) is not None:
+        if self.clock.is_read:
+            clock = self._build.make(CLOCK.message, self._build.stamp(self._now_ns))
+            self.clock.put(self._build.encode(clock, CLOCK))
+        while (received := self._states.receive()) is not None:  # while the nodes compute
             attacks = received.message().cyan_attacks
             if attacks != self._cyan_attacks:
                 self._cyan_attacks = attacks
                 self._publish_frames()
-        if self.clock.is_read:
-            clock = self._build.make(CLOCK.message, self._build.stamp(self._now_ns))
-            self.clock.put(self._build.encode(clock, CLOCK))
 
     def _publish_frames(self) -> None:
         """All frames that do not move, in one message: who comes later gets the newest one."""
