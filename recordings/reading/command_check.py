@@ -64,14 +64,12 @@ class CommandCheck:
     def add_command(self, recorded: RecordedMessage) -> None:
         """Add a recorded command."""
         robot = recorded.key.split("/")[1]
+        kept = self._sent.setdefault(robot, {})
         try:
             fields = from_json(recorded.payload)
-            answers = fields["answers_tick"]
+            kept.setdefault(fields["answers_tick"], []).append(_SentCommand(recorded, fields))
         except (ValueError, KeyError, TypeError):
             return  # the host ignored it, too
-        kept = self._sent.setdefault(robot, {})
-        sent = _SentCommand(recorded, fields)
-        kept.setdefault(answers, []).append(sent)
         unsent = self._unsent.get(robot)
         if unsent:
             radio = fields.get("radio")

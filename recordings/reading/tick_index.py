@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from pydantic_core import from_json
 
-from recordings.reading.recording import RecordedMessage, Recording
+from recordings.reading.recording import RecordedMessage, Recording, is_time
 from schemas.messages.applied import Applied
 from schemas.messages.soccer.game import GameState
 from schemas.soccer.game import Phase
@@ -149,7 +149,7 @@ def _summary_of(recorded: RecordedMessage) -> _AppliedSummary | None:
     try:
         fields: dict[str, Any] = from_json(recorded.payload)
         tick, time = fields["tick"], fields["time"]
-        if not isinstance(tick, int) or not isinstance(time, int | float):
+        if not isinstance(tick, int) or not is_time(time):
             return None
         changes = recorded.message() if any(name in fields for name in _CHANGES) else None
     except (BadMessageError, ValueError, KeyError, TypeError):

@@ -87,10 +87,10 @@ def shift(*keys: str):
 
 def change_command(copied):
     drive = {"vx": 1.25, "vy": 0.0, "omega": 0.0}
-    return each("robot/cyan2/command", lambda fields: fields.update(drive=drive), _answers(150))(copied)
+    return each("robot/cyan2/command", lambda fields: fields.update(drive=drive), answers(150))(copied)
 
 
-def _answers(tick: int):
+def answers(tick: int):
     return lambda fields: fields["answers_tick"] == tick
 
 

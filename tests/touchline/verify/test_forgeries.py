@@ -18,6 +18,8 @@ from sim_host.match.simulation import Simulation
 from support.forgeries import (
     add_goal,
     add_state,
+    answers,
+    at_tick,
     change_belief,
     change_command,
     change_input_and_command,
@@ -105,6 +107,14 @@ FORGERIES = {
     "a command": (change_command, "tick 151 (3.02 s) is the first that differs: the applied input of cyan2"),
     "an input with its command": (change_input_and_command, "tick 151 (3.02 s) is the first that differs"),
     "the actions of people": (drop_action, "tick 61 (1.22 s) is the first that differs: the hash chain differs"),
+    "an answer to no tick": (
+        each("robot/cyan2/command", lambda fields: fields.update(answers_tick=[150]), answers(150)),
+        "tick 151 (3.02 s) is the first that differs: the applied input of cyan2",
+    ),
+    "a time that no match reaches": (
+        each("host/applied", lambda fields: fields.update(time=1e300), at_tick(0)),
+        "host/applied: 1 messages are invalid, doubled or out of order",
+    ),
     "a chunk taken out": (remove_chunk, "ticks 150 to 159 are missing in the recording and were not verified"),
     "a belief": (change_belief, "the belief of cyan2 is in none of its recorded commands"),
 }
