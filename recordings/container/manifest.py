@@ -56,6 +56,8 @@ class Manifest(Part):
     """Attachment → blake2b of its content, hex."""
     made: str = "recorded"
     """`recorded`, or `filtered` for a copy of a part of a recording."""
+    damaged_records: int = 0
+    """Damaged records that a repair has left out of what was copied."""
 
 
 class EndReason(StrEnum):

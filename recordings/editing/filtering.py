@@ -33,7 +33,7 @@ def filter_recording(
     keys = [channel.key for channel in recording.channels if selection.includes(channel.key)]
     if not keys:
         raise TouchlineError(f"{recording.path}: none of its keys is selected; `touchline info` lists them")
-    manifest = _manifest_of_copy(recording.manifest, selection, start)
+    manifest = _manifest_of_copy(recording, selection, keys, start)
     roster = RosterMetadata(recording.manifest.setup, recording.lineup())
     with composition(out, manifest, recording.attachments, roster, viz=bool(recording.drawn)) as copy:
         for log_ns, received in _latched_at(recording, selection, start) if start is not None else ():
@@ -55,14 +55,20 @@ def _lasts(recording: Recording) -> str:
     return f"it lasts from {begin:.2f} to {end:.2f} s of simulated time"
 
 
-def _manifest_of_copy(manifest: Manifest, selection: KeySelection, start: float | None) -> Manifest:
-    """The manifest of a copy: part 1, whatever the original was."""
+def _manifest_of_copy(recording: Recording, selection: KeySelection, keys: list[str], start: float | None) -> Manifest:
+    """The manifest of a copy of these `keys`: part 1, whatever the original was.
+
+    What two selections have in common is no key expression, so that its keys are named.
+    """
+    manifest = recording.manifest
+    is_narrower = manifest.include and selection.include
     return manifest.replace(
         made="filtered",
         part=1,
         begins_ns=max(0, nanoseconds(start, manifest.begins_ns)),
-        include=[*manifest.include, *selection.include],
+        include=keys if is_narrower else [*manifest.include, *selection.include],
         exclude=[*manifest.exclude, *selection.exclude],
+        damaged_records=recording.damaged_records,
     )
 
 

@@ -18,7 +18,7 @@ from recordings.container.manifest import DAMAGED_RECORDS, RECOVERED, RESULT, Re
 from recordings.container.mcap_file import is_derived, summary_is_whole, summary_of
 from recordings.container.mcap_writer import CHUNK_BYTES, mcap_writer
 from recordings.container.parts import locked
-from recordings.container.sealed_metadata import from_metadata, sealed, to_metadata
+from recordings.container.sealed_metadata import from_metadata, is_sealed, sealed, to_metadata
 from recordings.editing.intact_records import Findings, chunks_are_intact, intact_records, profile_of
 from runtime.process.whole_file import written_whole
 from schemas.errors import TouchlineError, os_errors
@@ -116,9 +116,12 @@ class _Copy:
         self._mcap.start(profile=profile_of(content), library=library())
         if summary is not None:
             self._schemas, self._channels = dict(summary.schemas), dict(summary.channels)
+        damaged = 0
         for record in intact_records(content, summary, found):
             self.is_empty = False
-            if isinstance(record, Metadata):
+            if isinstance(record, Metadata) and record.name == RECOVERED and is_sealed(record.metadata):
+                damaged += int(record.metadata.get(DAMAGED_RECORDS, "0"))  # of earlier repairs
+            elif isinstance(record, Metadata):
                 self._add_metadata(record, found)
             elif isinstance(record, Attachment):
                 times = record.create_time, record.log_time
@@ -127,7 +130,7 @@ class _Copy:
                 found.damaged += 1
                 found.lost_messages = True
         self.cut = 0 if found.finished else len(content) - found.end
-        note = {"cut_bytes": str(self.cut), DAMAGED_RECORDS: str(found.damaged), "library": library()}
+        note = {"cut_bytes": str(self.cut), DAMAGED_RECORDS: str(damaged + found.damaged), "library": library()}
         self._add_metadata(Metadata(RECOVERED, sealed(note)), found)
         self._mcap.finish()  # type: ignore[no-untyped-call]
         return found

@@ -136,7 +136,7 @@ class Recording:
     def damaged_records(self) -> int:
         """Damaged records that a repair has left out."""
         note = self.mcap_file.metadata.get(RECOVERED, {})
-        return int(note.get(DAMAGED_RECORDS, "0")) if is_sealed(note) else 0
+        return self.manifest.damaged_records + (int(note.get(DAMAGED_RECORDS, "0")) if is_sealed(note) else 0)
 
     @property
     def channels(self) -> list[ChannelRecord]:

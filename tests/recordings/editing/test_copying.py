@@ -119,6 +119,13 @@ def test_a_filtered_recording_has_the_chosen_keys_and_seconds_byte_for_byte(run,
     assert part.result.keys["robot/cyan1/command"].messages == 50
 
 
+def test_a_copy_of_a_copy_says_which_keys_were_chosen_both_times(run, tmp_path):
+    first, second = tmp_path / "first.mcap", tmp_path / "second.mcap"
+    filter_recording(run("a"), first, KeySelection(("robot/**", "world", "game/**")))
+    filter_recording(open_recording(first), second, KeySelection(("host/**", "world")))
+    assert open_recording(second).manifest.include == ["world"]
+
+
 def test_a_copy_is_not_written_over_what_is_read(run):
     recording = run("a")
     with pytest.raises(TouchlineError, match="another name"):

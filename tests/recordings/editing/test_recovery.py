@@ -9,6 +9,7 @@ from mcap.reader import make_reader
 from mcap.stream_reader import StreamReader
 from mcap.writer import CompressionType, Writer
 
+from recordings.editing.filtering import filter_recording
 from recordings.editing.recovery import recover
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.cursor import Cursor
@@ -210,6 +211,20 @@ def test_a_damaged_chunk_is_left_out_the_rest_stays_and_nothing_is_left_to_repai
     repaired = several_chunks.read_bytes()
     assert not recover(several_chunks).repaired
     assert several_chunks.read_bytes() == repaired
+
+
+def test_a_second_repair_and_a_copy_still_tell_what_the_first_repair_has_left_out(several_chunks, tmp_path):
+    for left_out in (1, 2):
+        with several_chunks.open("rb") as file:
+            summary = make_reader(file).get_summary()
+        (result,) = [one for one in summary.metadata_indexes if one.name == "result"]
+        data = bytearray(several_chunks.read_bytes())
+        data[summary.chunk_indexes[5].chunk_start_offset + 200 if left_out == 1 else result.offset + 50] ^= 4
+        several_chunks.write_bytes(data)
+        assert recover(several_chunks).damaged == 1
+        repaired = open_recording(several_chunks)
+        filter_recording(repaired, tmp_path / "copy.mcap")
+        assert repaired.damaged_records == open_recording(tmp_path / "copy.mcap").damaged_records == left_out
 
 
 def change(path: Path, old: bytes, new: bytes) -> None:
