@@ -216,15 +216,22 @@ def stream_of(content: bytes) -> ReadDataStream:
 
 
 def _extent(file: IO[bytes], summary: Summary, channel: int, read: dict[int, dict[int, list[int]]]) -> tuple[int, int]:
-    """Times of a channel's first and last message, from its first and last chunk; `read` caches chunks."""
+    """Times of a channel's first and last message, from the chunks that may have these; `read` caches chunks."""
     chunks = [
         index
         for index in summary.chunk_indexes
         if channel in (index.message_index_offsets or _times(file, index, read))
     ]
-    if not chunks:
-        return 0, 0
-    return min(_times(file, chunks[0], read)[channel]), max(_times(file, chunks[-1], read)[channel])
+    first, last = END_NS if chunks else 0, 0
+    for index in sorted(chunks, key=lambda one: one.message_start_time):
+        if index.message_start_time >= first:
+            break
+        first = min(first, *_times(file, index, read)[channel])
+    for index in sorted(chunks, key=lambda one: one.message_end_time, reverse=True):
+        if index.message_end_time <= last:
+            break
+        last = max(last, *_times(file, index, read)[channel])
+    return first, last
 
 
 def _times(file: IO[bytes], chunk: ChunkIndex, read: dict[int, dict[int, list[int]]]) -> dict[int, list[int]]:

@@ -50,6 +50,15 @@ def test_info_lists_the_channels_of_any_file(tmp_path, options):
     assert "/robot1/odom" in table and "100.0" in table
 
 
+@pytest.mark.parametrize("order", [(4, 5, 0, 3, 1, 2), (0, 1, 4, 5, 2, 3)])
+def test_no_message_is_lost_where_chunks_are_out_of_order(tmp_path, order):
+    file = write_mcap(tmp_path / "log.mcap", [("odom", place, bytes(60)) for place in order], chunk_size=150)
+    facts = json.loads(touchline("info", file, "--json").output)
+    assert touchline("filter", file, "--out", tmp_path / "copy.mcap").exit_code == 0
+    copied = [(time - START_NS) / 1e6 for _, _, time in read(tmp_path / "copy.mcap")]
+    assert (facts["messages"], facts["duration"], copied) == (6, 0.005, [0, 1, 2, 3, 4, 5])
+
+
 @pytest.mark.parametrize("compression", CompressionType, ids=lambda one: one.name.lower())
 def test_a_chunk_of_one_large_image_is_read(tmp_path, compression):
     image = os.urandom(40 * 2**20)
