@@ -23,7 +23,8 @@ def parse_endpoint(endpoint: str) -> tuple[str, str, int]:
     Raises:
         BusError: the text is not `PROTOCOL/HOST:PORT`.
     """
-    found = re.fullmatch(r"(tcp|tls|quic|udp|ws)/(\[[^\]]+\]|[^:/\[\]]+):(\d{1,5})", endpoint)
+    name = r"[^:/\[\].]{1,63}(?:\.[^:/\[\].]{1,63})*\.?"  # a longer or empty part is none that could be looked up
+    found = re.fullmatch(rf"(tcp|tls|quic|udp|ws)/(\[[^\]]+\]|{name}):(\d{{1,5}})", endpoint)
     if found is None or int(found[3]) > 65_535:
         raise BusError(f'endpoint is "{endpoint}"; write it as tcp/127.0.0.1:7447')
     return found[1], found[2].strip("[]"), int(found[3])

@@ -160,7 +160,9 @@ def test_an_endpoint_knows_whether_others_can_reach_it(endpoint: str, loopback: 
     assert is_loopback(endpoint) is loopback
 
 
-@pytest.mark.parametrize("endpoint", ["7447", "tcp/127.0.0.1", "tcp/127.0.0.1:70000", "http/127.0.0.1:80", ""])
+@pytest.mark.parametrize(
+    "endpoint", ["7447", "tcp/127.0.0.1", "tcp/127.0.0.1:70000", "http/127.0.0.1:80", "tcp/a..b:7447", ""]
+)
 def test_an_endpoint_that_is_none_is_named(endpoint: str) -> None:
     with pytest.raises(BusError, match="write it as tcp/127"):
         parse_endpoint(endpoint)
