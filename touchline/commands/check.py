@@ -1,12 +1,10 @@
 """`touchline check`: whether a brain or a program keeps the contract of a robot."""
 
-import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from robot_agent.process.stdio.command_line import check_command_line
 from schemas.config.match_config import load_match
 from schemas.config.shipped_teams import brain_of
 from schemas.errors import TouchlineError
@@ -58,14 +56,12 @@ def check(
 
     if [brain, stdio, command].count(None) != 2:
         raise TouchlineError('name the brain, module:Class, or give --stdio "program argument" or --command')
-    if command is not None:
-        check_command_line("--command", shlex.split(command))
     overrides = {"teams.cyan.remote": True}  # the team of the file is not that which is checked
     subject = Subject(
         config=load_match(match, overrides),
         brain=brain_of(brain) if brain is not None else "",
         stdio=options.program_of(stdio),
-        command=shlex.split(command or ""),
+        command=options.program_of(command, "--command"),
         folder=match.parent if match is not None else None,
     )
     if not subject.robots:

@@ -1,6 +1,5 @@
 """`touchline team`: all robots of one team on this machine, for a host on another."""
 
-import shlex
 import sys
 from functools import partial
 from typing import Annotated, Any
@@ -63,8 +62,8 @@ def team(
     brain = brain_of(brain) if brain is not None else None
     program = options.program_of(stdio)
     settings = from_options(AgentSettings, robot=f"{side}1", brain=brain or "", stdio=program, side=side, **agent)
-    own_program = shlex.split(command) if command is not None else None
-    own = from_options(TeamConfig, brain=brain, command=own_program, stdio=program or None, **passed)
+    own_program = options.program_of(command, "--command")
+    own = from_options(TeamConfig, brain=brain, command=own_program or None, stdio=program or None, **passed)
     teams = TeamConfigs(**{side.value: own, side.opponent.value: TeamConfig(remote=True)})
     config = MatchConfig(teams=teams, limits=from_options(Limits, **limits), **isolation)
     if settings.reload:

@@ -56,7 +56,7 @@ def test_the_robots_of_a_team_load_changed_code_if_they_are_to(planned: tuple[st
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (("--command", "./robot"), "--reload is for brains"),
+        (("--command", "cat"), "--reload is for brains"),
         (("--stdio", "cat"), "--reload is for brains"),
         ((*BRAIN, "--isolate", "bubblewrap"), "robots in bubblewrap do not see changed files"),
     ],

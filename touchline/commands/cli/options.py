@@ -77,16 +77,19 @@ def check_numbers(**given: float | None) -> None:
             raise TouchlineError(f"--{name.replace('_', '-')} is {value}; give a number")
 
 
-def program_of(stdio: str | None) -> list[str]:
-    """The command line of the option `--stdio`, with absolute paths; empty without one.
+def program_of(stdio: str | None, option: str = "--stdio") -> list[str]:
+    """The command line of an option, with absolute paths; empty without one.
 
     Raises:
         TouchlineError: there is no such program.
     """
     if stdio is None:
         return []
-    command = shlex.split(stdio)
-    check_command_line("--stdio", command)
+    try:
+        command = shlex.split(stdio)
+    except ValueError as error:
+        raise TouchlineError(f"{option} is {stdio}: {error}; close what is open") from None
+    check_command_line(option, command)
     return list(command_line(command))
 
 

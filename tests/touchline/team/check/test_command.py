@@ -71,6 +71,13 @@ def test_the_result_as_json_has_the_figures(check) -> None:
     assert "drive is 9.00 m/s" in rows["limits"]["sentence"]
 
 
+@pytest.mark.parametrize("option", ["--stdio", "--command"])
+def test_a_quotation_that_is_not_closed_is_one_line(option: str) -> None:
+    found = CliRunner().invoke(app, ["check", option, 'node "robot'])
+    assert found.exit_code == 2
+    assert found.stderr == f'touchline: {option} is node "robot: No closing quotation; close what is open\n'
+
+
 @pytest.mark.parametrize("words", [[], ["a:B", "--stdio", "cat"]])
 def test_without_a_brain_or_with_two_it_is_one_line(check, words: list[str]) -> None:
     found = CliRunner().invoke(app, ["check", *words])
