@@ -7,6 +7,7 @@ import typer
 
 from schemas.config.profile import load_profile
 from schemas.config.robot_model import RobotModel
+from schemas.errors import os_errors
 from touchline.commands.cli import options
 from touchline.launch.terminal.json_text import json_text
 
@@ -39,5 +40,6 @@ def identify(
     if out is None:
         typer.echo(text, nl=False)
         return
-    out.write_text(text, "utf-8")
+    with os_errors(f"--out {out}", "give a path that can be written"):
+        out.write_text(text, "utf-8")
     typer.echo(f'{out}: latency of commands {1e3 * numbers.latency:.0f} ms; play with it by `profile = "{out}"`')

@@ -5,7 +5,7 @@ import re
 from importlib import resources, util
 from pathlib import Path
 
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, os_errors
 
 TEMPLATE = "touchline.team.template"
 FILES = ("team_name.py", "match.toml", "test_team_name.py", "pytest.ini", "README.md")
@@ -21,17 +21,18 @@ def make_team(name: str, parent: Path) -> Path:
     """Make the folder `name` in `parent`, and return its path.
 
     Raises:
-        TouchlineError: the name is not one for a module, hides another module, or the folder exists.
+        TouchlineError: the name is not one for a module, hides another module, or the folder exists or cannot be made.
     """
     folder = parent / name
     reason = _why_not(name, folder)
     if reason is not None:
         raise TouchlineError(reason)
     source = resources.files(TEMPLATE)
-    folder.mkdir(parents=True)
-    for file in FILES:
-        text = (source / file).read_text(encoding="utf-8")
-        (folder / _named(file, name)).write_text(_named(text, name), encoding="utf-8")
+    with os_errors(folder, "choose another folder with --in"):
+        folder.mkdir(parents=True)
+        for file in FILES:
+            text = (source / file).read_text(encoding="utf-8")
+            (folder / _named(file, name)).write_text(_named(text, name), encoding="utf-8")
     return folder
 
 

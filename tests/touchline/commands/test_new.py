@@ -74,3 +74,10 @@ def test_a_folder_that_exists_is_left_alone(tmp_path: Path) -> None:
     assert refused.exit_code == 2
     assert "exists already" in refused.output
     assert list((tmp_path / "my_team").iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_made_is_named_in_one_line(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    refused = run.invoke(app, ["new", "their_team", "--in", str(tmp_path / "file" / "below")])
+    assert refused.exit_code == 2
+    assert "file/below/their_team: Not a directory; choose another folder with --in" in refused.output

@@ -144,6 +144,8 @@ def test_the_command_writes_a_profile_that_a_match_can_be_played_with(recorded, 
     done = CliRunner().invoke(app, ["identify", str(path), "--robot", "cyan2", "--out", str(made)])
     assert done.exit_code == 0 and "latency of commands" in done.stdout
     assert load_match(None, {"profile": str(made)}).load_profile().sensing.latency == approx(0.04, abs=0.01)
+    refused = CliRunner().invoke(app, ["identify", str(path), "--robot", "cyan2", "--out", str(path / "profile.toml")])
+    assert (refused.exit_code, refused.stderr.count("\n")) == (2, 1)
     printed = CliRunner().invoke(app, ["identify", str(path), "--robot", "cyan2", "--json"]).stdout
     assert json.loads(printed)["turn_acceleration"] > 1.0
 
