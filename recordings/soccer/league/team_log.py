@@ -30,6 +30,8 @@ GAP_S = 1.0
 """s without a record after which a team has a gap. Chosen here: ten times the longest period the league allows."""
 BURST_S = 0.01
 """s between two records below which they are a burst. Chosen here: no team's program runs at 100 Hz."""
+_LATEST_MS = 4e12
+"""ms since 1970; a later time, after 2096, is in another unit. Chosen here."""
 _MAX_OFFSET_MS = 6 * 3600 * 1000
 """ms from the median record; a record farther away has a wrong clock. Chosen here: no match lasts longer."""
 _RECORD = re.compile(r'\{\s*"(?:team|time|game|world)\w*"\s*:', re.IGNORECASE)
@@ -125,7 +127,7 @@ def _raw_records(text: str, letter: str, findings: Findings) -> Iterator[Any]:
 def _record(raw: Any, index: int, findings: Findings) -> _Record | None:
     record = fields_of(raw, findings)
     epoch_ms = number(record.get("timestamp"), "timestamp", findings)
-    if epoch_ms is None or epoch_ms <= 0:
+    if epoch_ms is None or not 0 < epoch_ms < _LATEST_MS:
         findings.note("record without a time", lost=True)
         return None
     content = record.get("worldstate")

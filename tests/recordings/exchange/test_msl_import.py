@@ -313,6 +313,8 @@ def test_files_that_are_no_log_get_one_plain_sentence(tmp_path: Path) -> None:
     assert "has no world state" in said(b"", "empty.A.msl")
     assert "has no world state" in said(b"\x00\xff\xfe" * 50, "noise.A.msl")
     assert "has no world state" in said(b'[{"timestamp": 1}]', "poor.A.msl")
+    microseconds = json.dumps([record(40) | {"timestamp": 1.6e18 + count} for count in range(3)]).encode()
+    assert "3 times record without a time" in said(microseconds, "microseconds.A.msl")
     packed = tmp_path / "good.zip"
     with ZipFile(packed, "w") as archive:
         archive.writestr("x.A.msl", json.dumps([record(time) for time in range(0, 4000, 40)]))
