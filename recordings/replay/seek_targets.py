@@ -10,7 +10,7 @@ from schemas.soccer.game import EventKind, Phase
 from schemas.topics import EVENT, STATE
 
 _TICK = re.compile(r"tick:(\d+)")
-_EVENT = re.compile(r"([a-z][a-z_]*)(?::(-?\d+))?([+-]\d+(?:\.\d+)?)?")
+_EVENT = re.compile(r"([a-z][a-z_]*)(?::(-?\d{1,9}))?([+-]\d+(?:\.\d+)?)?")
 
 
 class SeekTarget(NamedTuple):

@@ -35,6 +35,7 @@ def test_seconds_and_events_name_a_seek_target(words, time):
         ("", "give seconds, a tick as in tick:500"),
         *((text, f'"{text}" is a time that no recording has') for text in ("inf", "-inf", "nan", "-1", "1e300")),
         ("tick:" + "9" * 400, "is a time that no recording has"),
+        ("goal:" + "9" * 5000, "give seconds, a tick as in tick:500"),
         ("goal+" + "9" * 400, "is a time that no recording has"),
     ],
 )
