@@ -23,7 +23,7 @@ class KeySelection:
 
     def __post_init__(self) -> None:
         for expression in (*self.include, *self.exclude):
-            key_pattern(expression)
+            _pattern(expression)
 
     def __bool__(self) -> bool:
         """Whether any key can be left out."""
@@ -31,9 +31,9 @@ class KeySelection:
 
     def includes(self, key: str) -> bool:
         """Whether a key is selected."""
-        if any(key_pattern(expression).fullmatch(key) for expression in self.exclude):
+        if any(matches(expression, key) for expression in self.exclude):
             return False
-        return not self.include or any(key_pattern(expression).fullmatch(key) for expression in self.include)
+        return not self.include or any(matches(expression, key) for expression in self.include)
 
     def key_of(self, topic: str) -> str | None:
         """The key of a topic of any MCAP file: its name without a leading `/`; None if it is not selected."""
@@ -45,30 +45,27 @@ EVERYTHING = KeySelection()
 """Selects all keys."""
 
 
-@cache
-def key_pattern(expression: str) -> re.Pattern[str]:
-    """The keys that a key expression matches, as a regular expression.
+def matches(expression: str, key: str) -> bool:
+    """Whether a key expression matches a key.
 
     Raises:
         TouchlineError: `expression` is not a key expression.
     """
-    parts: list[str] = []
-    chunks = expression.split("/")
-    for number, chunk in enumerate(chunks):
+    return _pattern(expression).fullmatch("/" + key) is not None
+
+
+@cache
+def _pattern(expression: str) -> re.Pattern[str]:
+    """The keys that a key expression matches, with a `/` before each chunk."""
+    pattern = ""
+    for chunk in expression.split("/"):
         if chunk == "**":
-            last = number == len(chunks) - 1
-            if last and parts:
-                parts[-1] = parts[-1].removesuffix("/")
-                parts.append(r"(?:/[^/]+)*")
-            else:
-                parts.append(r".*" if last else r"(?:[^/]+/)*")
+            pattern += r"(?:/[^/]+)*"
             continue
-        inner = r"[^/]+" if chunk == "*" else r"[^/]*".join(re.escape(piece) for piece in chunk.split("$*"))
-        bare = chunk.replace("$*", "")
-        if not chunk or (chunk != "*" and re.search(r"[*$#?\s]", bare)):
+        if not chunk or (chunk != "*" and re.search(r"[*$#?\s]", chunk.replace("$*", ""))):
             raise TouchlineError(
                 f'"{expression}" is not a key expression; * is one chunk, ** any number of chunks, $* a part of one: '
                 "robot/*/command, team/**"
             )
-        parts.append(inner + ("/" if number < len(chunks) - 1 else ""))
-    return re.compile("".join(parts))
+        pattern += "/" + (r"[^/]+" if chunk == "*" else r"[^/]*".join(map(re.escape, chunk.split("$*"))))
+    return re.compile(pattern)

@@ -85,7 +85,11 @@ class Recording:
         """Attachments that are missing or have changed."""
         self.unreadable: Counter[str] = Counter()
         """Key → payloads that `decoded` skipped because they are not valid messages."""
-        self._topics = {channel.key: _topic(channel) for channel in mcap_file.channels.values()}
+        self._topics = {
+            channel.key: topic
+            for channel in mcap_file.channels.values()
+            if (topic := TOPICS.get(channel.topic)) is not None and topic.message is not None
+        }
 
     @property
     def setup(self) -> Setup:
@@ -159,13 +163,10 @@ class Recording:
         Raises:
             TouchlineError: the file is damaged inside.
         """
-        wanted = {key for key, topic in self._topics.items() if topic is not None and _wanted(key, keys)}
+        wanted = {key for key in self._topics if not keys or any(fnmatchcase(key, pattern) for pattern in keys)}
         for key, message in self.mcap_file.messages(wanted, nanoseconds(start, 0), nanoseconds(end, END_NS)):
             topic = self._topics[key]
-            if topic is not None:
-                yield RecordedMessage(
-                    key, topic, message.data, message.log_time, message.publish_time, message.sequence
-                )
+            yield RecordedMessage(key, topic, message.data, message.log_time, message.publish_time, message.sequence)
 
     def decoded(
         self, *keys: str, start: float | None = None, end: float | None = None
@@ -217,15 +218,6 @@ def _check_version(path: Path, theirs: str) -> None:
             f"{path}: recorded with messages of version {theirs}, this program reads {VERSION}; "
             "open it with the program that recorded it"
         )
-
-
-def _topic(channel: ChannelRecord) -> Topic | None:
-    topic = TOPICS.get(channel.topic)
-    return topic if topic is not None and topic.message is not None else None
-
-
-def _wanted(key: str, patterns: tuple[str, ...]) -> bool:
-    return not patterns or any(fnmatchcase(key, pattern) for pattern in patterns)
 
 
 def is_time(seconds: float) -> bool:

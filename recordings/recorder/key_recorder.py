@@ -76,13 +76,7 @@ def record_keys(
             credentials = announced_credentials(connect, Account.RECORDER)  # a match may be played there
         return open_network("keys", clock, connect, settings.listen, credentials, patience)
 
-    bus = open_when_there(
-        open_bus,
-        clock,
-        settings.patience,
-        report,
-        should_stop,
-    )
+    bus = open_when_there(open_bus, clock, settings.patience, report, should_stop)
     if bus is None:
         return None
     with bus:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from recordings.container.key_selection import EVERYTHING, KeySelection, key_pattern
+from recordings.container.key_selection import EVERYTHING, KeySelection, matches
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import Recording, open_recording
 from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE
@@ -128,6 +128,6 @@ def _check(selection: KeySelection, keys: Sequence[str]) -> None:
     """
     for option, expressions in (("--include", selection.include), ("--exclude", selection.exclude)):
         for expression in expressions:
-            if not any(key_pattern(expression).fullmatch(key) for key in keys):
+            if not any(matches(expression, key) for key in keys):
                 known = did_you_mean(expression, keys)
                 raise TouchlineError(f'{option} "{expression}" matches no key of the recording; {known}')

@@ -1,6 +1,6 @@
 """`touchline coach order` and `touchline coach test`: send orders to a side and report the acknowledgements."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -112,7 +112,7 @@ def _order(
     connection: ClientSettings,
     **more: Any,
 ) -> None:
-    content = {**{key: getattr(order_options, key) for key in (field.name for field in fields(order_options))}, **more}
+    content = vars(order_options) | more
     from_options(CoachOrder, sequence=1, **content)
     with bus_client(connection, Account.of_coach(side)) as bus:
         client = HostClient(bus)

@@ -71,15 +71,8 @@ def team(
     clock = WallClock()
 
     def connect(patience: float) -> ZenohBus:
-        return open_client(
-            settings.match,
-            clock,
-            settings.connect,
-            patience,
-            settings.credentials,
-            Account.of_team(side),
-            any_match=True,
-        )
+        known = settings.match, clock, settings.connect, patience, settings.credentials
+        return open_client(*known, Account.of_team(side), any_match=True)
 
     with StopSignals() as stop:
         bus = open_when_there(connect, clock, wait, partial(typer.echo, err=True), lambda: stop.received is not None)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from recordings.container.key_selection import KeySelection, key_pattern
+from recordings.container.key_selection import KeySelection, matches
 from schemas.errors import TouchlineError
 
 
@@ -15,12 +15,14 @@ from schemas.errors import TouchlineError
         ("team/**", "teams", False),
         ("**/order", "order", True),
         ("**", "world", True),
+        ("**/**", "world", True),
+        ("team/**/cyan1", "team/cyan1", True),
         ("robot/cyan$*/command", "robot/cyan12/command", True),
         ("world", "world/ball", False),
     ],
 )
 def test_key_expressions_mean_what_they_mean_on_the_bus(expression, key, meant):
-    assert bool(key_pattern(expression).fullmatch(key)) is meant
+    assert matches(expression, key) is meant
 
 
 @pytest.mark.parametrize("expression", ["", "a//b", "/a", "a/", "a*b", "a b", "a?"])
