@@ -1,6 +1,7 @@
 """Copies a part of MCAP files of any writer: each message keeps its payload, times and sequence number."""
 
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 
 from mcap.reader import make_reader
@@ -37,24 +38,19 @@ def copy_log(
         with written_whole(out) as draft, draft.open("wb") as file:
             mcap = mcap_writer(file)
             mcap.start(profile=_profile(log.files[0].path), library=library())
-            schemas: dict[tuple[str, str, bytes], int] = {}
+            schema_of = cache(mcap.register_schema)
             channels: dict[int, int] = {}
             for message in log.messages(seconds_ns(start or 0.0)):
                 if stop_ns is not None and message.log_ns >= stop_ns:
                     break
                 channel = message.topic
-                if id(channel) not in channels:
-                    number = 0
-                    if channel.schema is not None:
-                        described = channel.schema.name, channel.schema.encoding, channel.schema.data
-                        number = schemas.get(described) or schemas.setdefault(
-                            described, mcap.register_schema(*described)
-                        )
-                    channels[id(channel)] = mcap.register_channel(
-                        channel.key, channel.encoding, number, channel.metadata
-                    )
+                if (number := channels.get(id(channel))) is None:
+                    known = channel.schema
+                    schema = schema_of(known.name, known.encoding, known.data) if known is not None else 0
+                    number = mcap.register_channel(channel.key, channel.encoding, schema, channel.metadata)
+                    channels[id(channel)] = number
                 log_ns = message.log_ns + log.base_ns
-                mcap.add_message(channels[id(channel)], log_ns, message.payload, message.sent_ns, message.sequence)
+                mcap.add_message(number, log_ns, message.payload, message.sent_ns, message.sequence)
                 copied += 1
             if not copied:
                 raise TouchlineError(f"{paths[0]}: has no message in this time; it lasts {log.end_ns / 1e9:.2f} s")

@@ -3,6 +3,7 @@
 from collections import Counter, defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from recordings.container.encodings import ENCODING, mcap_encoding
@@ -11,7 +12,7 @@ from recordings.container.key_selection import KeySelection
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.parts import NotWritableError, create_part
 from recordings.recorder.key_counts import KEYS, KeyCounts
-from recordings.recorder.known_schemas import KnownSchema, schema_of
+from recordings.recorder.known_schemas import schema_of
 from recordings.recorder.sequence_tracker import SequenceTracker
 from recordings.recorder.settings import RecorderSettings
 from recordings.timing import FLUSH_S, RECOVERY_POLL_S
@@ -101,7 +102,7 @@ class KeyRecorder:
         self._file = create_part(path)
         self._mcap = mcap_writer(self._file)
         self._channels: dict[tuple[str, str], int | None] = {}
-        self._schemas: dict[KnownSchema, int] = {}
+        self._number_of_schema = cache(self._mcap.register_schema)
         self._numbers: defaultdict[tuple[str, str], _Numbers] = defaultdict(_Numbers)
         self.messages = 0
         """Messages so far."""
@@ -161,19 +162,11 @@ class KeyRecorder:
         channel = None
         if self._selection.includes(sample.key):
             encoding, name = mcap_encoding(sample.encoding)
-            metadata = {"key": sample.key, ENCODING: sample.encoding}
-            channel = self._mcap.register_channel(
-                sample.key, encoding, self._schema(schema_of(encoding, name)), metadata
-            )
+            metadata, known = {"key": sample.key, ENCODING: sample.encoding}, schema_of(encoding, name)
+            schema = self._number_of_schema(*known) if known is not None else 0
+            channel = self._mcap.register_channel(sample.key, encoding, schema, metadata)
         self._channels[sample.key, sample.encoding] = channel
         return channel
-
-    def _schema(self, known: KnownSchema | None) -> int:
-        if known is None:
-            return 0
-        if known not in self._schemas:
-            self._schemas[known] = self._mcap.register_schema(*known)
-        return self._schemas[known]
 
     def _finish(self, unwritten: int) -> KeySummary:
         losses: Counter[str] = Counter()

@@ -89,8 +89,7 @@ def with_free_port(endpoint: str) -> str:
         return endpoint
     if protocol in _CONNECTIONLESS:
         raise BusError(f"--listen {endpoint}: {protocol} has no free port to take; name a port, or use tcp")
-    free = reserve_port(host)
-    return f"{protocol}/[{host}]:{free}" if ":" in host else f"{protocol}/{host}:{free}"
+    return f"{protocol}/{f'[{host}]' if ':' in host else host}:{reserve_port(host)}"
 
 
 def reserve_port(host: str) -> int:
