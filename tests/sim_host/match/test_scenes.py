@@ -17,8 +17,9 @@ from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.radio import Radio
 from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.messages.sight import Sight
+from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
-from schemas.soccer.game import EventKind, Phase, TeamPhase
+from schemas.soccer.game import ActionName, EventKind, Phase, TeamPhase
 from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation, TickResult
 
@@ -331,6 +332,13 @@ def test_several_deeds_between_two_ticks_are_done_in_their_order(simulation) -> 
     tick = simulation.step({})
     assert tick.world["robots"]["magenta3"]["x"] == approx(6.0)
     assert len([event for event in tick.events if event.kind is EventKind.SCENE]) == 3
+
+
+def test_a_card_for_a_side_that_was_removed_is_refused(simulation) -> None:
+    done(simulation, "remove", remove=[name for name in simulation.roster.names if name.startswith("magenta")])
+    simulation.step({}, [RefereeAction(action=ActionName.START)])
+    (reply,) = simulation.step({}, [RefereeAction(action=ActionName.YELLOW_CARD, side=Side.MAGENTA)]).replies
+    assert not reply.accepted and reply.reason == "yellow_card: it is allowed for no robot of magenta: it has none"
 
 
 def test_a_match_over_takes_no_more_scenes(simulation_of) -> None:

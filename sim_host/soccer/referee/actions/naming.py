@@ -42,8 +42,8 @@ def possible_robots(draft: RulingDraft, action: RefereeAction) -> tuple[str, ...
 
 def why_none(draft: RulingDraft, action: RefereeAction) -> str:
     """Why an action is allowed for no robot of its side."""
-    last = _robots_of(draft, action.side)[-1]  # each side has one robot at least
-    why = _why_illegal(draft, action, last)
+    mine = _robots_of(draft, action.side)
+    why = _why_illegal(draft, action, mine[-1]) if mine else "it has none"
     return f"it is allowed for no robot of {action.side}: {why}"
 
 
