@@ -77,7 +77,7 @@ class Scoring:
     ]
     lob_height: Annotated[float, Quantity("m", "apex of the ball's underside above which a kick is a lob", 0, 5)]
     lob_teammate: Annotated[float, Quantity("m", "a teammate this close to where it lands makes it a pass", 0, 20)]
-    lob_robots: Annotated[int, Quantity("1", "least robots of its side on the field for a lob to be judged", 1, 11)]
+    lob_robots: Annotated[int, Quantity("1", "least robots of its side on the field for a lob to be judged", 2, 11)]
 
 
 @dataclass(frozen=True, slots=True)
