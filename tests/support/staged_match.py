@@ -82,6 +82,12 @@ class StagedMatch:
         self.host.put(EVENT, event)
         self.host.say(phase=Phase.KICK_OFF, side=Side.MAGENTA, left=7.0, score=score)
 
+    def miss_penalty(self) -> None:
+        """The first penalty of a shoot-out is missed."""
+        missed = "penalty of cyan missed: ball out, no goal"
+        event = make_event(self.host.state.tick, missed, EventKind.SHOT, side=Side.CYAN, score=Score())
+        self.host.put(EVENT, event)
+
     def end(self) -> None:
         """Full time."""
         self.host.say(phase=Phase.FULL_TIME, running=False, side=None, left=None)

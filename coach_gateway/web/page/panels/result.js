@@ -19,9 +19,10 @@ export function goalsOf(events, score) {
     const place = goals.findLastIndex((goal) => goal.side === side);
     if (place >= 0) goals.splice(place, 1);
   };
-  for (const { kind, side, robot, clock, score: after } of events) {
+  for (const { kind, side, robot, clock, text, score: after } of events) {
     if (kind === "goal" && side) goals.push({ side, robot: robot ?? null, clock });
-    if (after) for (const one of SIDES) while (count(goals, one) > after[one]) takeBack(one);
+    const isOfPenalties = kind === "shot" || text.includes("in the shoot-out");
+    if (after && !isOfPenalties) for (const one of SIDES) while (count(goals, one) > after[one]) takeBack(one);
   }
   for (const one of SIDES) while (count(goals, one) > score[one]) takeBack(one);
   return goals;

@@ -131,6 +131,18 @@ def test_a_page_keeps_the_result_of_its_match_when_host_and_server_have_ended(
     assert tab.page.locator("#score").inner_text() == "10 : 0"
 
 
+def test_a_shoot_out_leaves_the_scorers_of_the_match_in_the_result(
+    staged: StagedMatch, visit: Callable[..., Any]
+) -> None:
+    """The score of its events is that of the penalties."""
+    tab = visit(staged.origin)
+    staged.score()
+    staged.miss_penalty()
+    tab.until("window.touchline.match.events.at(-1)?.kind === 'shot'")
+    tab.page.wait_for_timeout(100)
+    assert tab.page.locator("#cyan-scorers").inner_text() == "Lions (cyan 3) 0:00.0"
+
+
 def test_goals_and_the_score_are_announced_and_the_score_at_the_beginning_is_not(
     staged: StagedMatch, visit: Callable[..., Any]
 ) -> None:
