@@ -67,10 +67,10 @@ def _robot(number: int, truth: RobotTruth, belief: Belief | None, attack: int) -
 
 
 def _balls(setup: Setup, world: World, beliefs: Mapping[str, Belief], attack: int) -> list[BallSeen]:
-    """The ball as last seen by any robot; the true ball where no robot of the team sends anything."""
+    """The ball as last seen by any robot; the true ball, if there is one, where no robot of the team sends anything."""
     if not beliefs:
-        ball = world.match_ball
-        return [BallSeen(ball.x, ball.y, ball.z, ball.vx, ball.vy, ball.vz)]
+        ball = world.ball
+        return [BallSeen(ball.x, ball.y, ball.z, ball.vx, ball.vy, ball.vz)] if ball is not None else []
     seen = [(one.radio.ball, world.time - one.time) for one in beliefs.values() if one.radio.ball is not None]
     if not seen:
         return []

@@ -125,6 +125,10 @@ def test_a_team_that_sees_no_ball_sends_none(view: View) -> None:
     assert view(Side.CYAN, cyan1=word("cyan1", role="searcher"))["balls"] == []
 
 
+def test_a_game_without_a_ball_has_none(view: View) -> None:
+    assert view(Side.CYAN, world=WORLD.replace(ball=None))["balls"] == []
+
+
 def test_obstacles_are_where_the_robots_believe_them(view: View) -> None:
     """Magenta's robots send them in their own team's frame."""
     seen = view(Side.MAGENTA, magenta1=word("magenta1", obstacles=[Point(x=2.0, y=-3.0)]))
