@@ -25,7 +25,7 @@ export class Requests {
     if (deed === "action") this.#own.push(content.action.action);
     const reply = await this.connection.ask(deed, content);
     source?.classList.remove("asking");
-    if (deed === "action" && !reply.accepted) this.#own.splice(this.#own.indexOf(content.action.action), 1);
+    if (deed === "action" && !reply.accepted) this.#forget(content.action.action);
     this.show(source, words, reply);
     return reply;
   }
@@ -42,9 +42,14 @@ export class Requests {
     const key = `${tick} ${text}`;
     if (!this.match.live || kind !== "action" || !text.includes(" requests: ") || this.#heard.has(key)) return;
     this.#heard.add(key);
-    const place = this.#own.indexOf(rule);
-    if (place < 0) this.#note(text, "accepted", true, clock).classList.add("of-others");
-    else this.#own.splice(place, 1);
+    if (!this.#forget(rule)) this.#note(text, "accepted", true, clock).classList.add("of-others");
+  }
+
+  /** Forgets an action of this page; whether there was one. Another page's equal action may have come before it. */
+  #forget(action) {
+    const place = this.#own.indexOf(action);
+    if (place >= 0) this.#own.splice(place, 1);
+    return place >= 0;
   }
 
   #note(words, verdict, accepted, clock) {
