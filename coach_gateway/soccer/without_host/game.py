@@ -90,6 +90,8 @@ class GameWithoutHost:
     def _begin_half(self) -> str:
         state = self.state
         stage = self._next_stage()
+        if stage is None:  # the score was changed in the break
+            return self._end(Phase.FULL_TIME)
         shoot_out = Score() if stage is GameStage.SHOOT_OUT else None
         turned = {} if shoot_out is not None else {"half": state.half + 1, "cyan_attacks": -state.cyan_attacks}
         return self._change(phase=Phase.STOPPED, stage=stage, shoot_out=shoot_out, **turned)
@@ -129,7 +131,7 @@ class GameWithoutHost:
         return self._change(**{field: score.plus(action.side, goals)})
 
     def _end_half(self, _: RefereeAction) -> str:
-        if self.state.phase in _ENDED:
+        if self.state.phase in (Phase.PRE_GAME, *_ENDED):
             return f"no half has begun, the phase is {self.state.phase}"
         return self._end(Phase.HALF_TIME if self._next_stage() is not None else Phase.FULL_TIME)
 

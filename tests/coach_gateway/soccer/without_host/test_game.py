@@ -110,6 +110,7 @@ def test_what_nobody_can_judge_without_a_host_and_what_names_nobody_is_refused(p
 
 
 def test_a_match_of_two_halves_changes_ends_and_is_over(played):
+    assert played.act("end_half") == ["no half has begun, the phase is pre_game"]
     played.act("start", "end_half")
     assert played.now == (Phase.HALF_TIME, None, False)
     assert played.act("corner cyan", "stop", "end_half") == 2 * ["no half has begun, the phase is half_time"]
@@ -135,6 +136,15 @@ def test_a_level_match_that_needs_a_winner_goes_on_with_extra_time_and_penalties
         (4, GameStage.SHOOT_OUT),
     ]
     assert played.game.state.phase is Phase.FULL_TIME
+
+
+def test_a_goal_that_is_counted_in_the_break_may_end_a_match_that_needs_a_winner():
+    played = Played(**{"referee.winner": True})
+    played.act("start", "end_half", "start", "start", "end_half")
+    assert played.now[0] is Phase.HALF_TIME
+    played.act("goal cyan", "start")
+    state = played.game.state
+    assert (state.phase, state.half, state.stage) == (Phase.FULL_TIME, 2, GameStage.REGULAR)
 
 
 def test_goals_of_the_shoot_out_count_apart_and_end_a_level_match():
