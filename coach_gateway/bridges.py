@@ -45,11 +45,6 @@ class Bridges:
     listen: str = LOOPBACK
     """Address that programs and base stations connect to."""
 
-    @property
-    def wanted(self) -> bool:
-        """Whether there is any bridge."""
-        return self.udp is not None or bool(self.boxes or self.server_addresses or self.audience)
-
     def open_ports(self, inherited: InheritedSockets | None = None) -> list[socket.socket]:
         """Bind all ports, or take the sockets of a launcher that has bound them: that for coach programs, if they are
         wanted, then those for team software, in the order of the server addresses.
@@ -103,8 +98,6 @@ def services_of(
     bus: Bus, wanted: Bridges, ports: Sequence[socket.socket], tokens: Tokens, log: Callable[[str], None]
 ) -> list[Service]:
     """The services of these bridges, on their open ports; the first follows the match for all of them."""
-    if not wanted.wanted:
-        return []
     live = LiveMatch(bus)
     services, bound = list[Service]([live]), iter(ports)
     if wanted.udp is not None:

@@ -40,7 +40,8 @@ def run(settings: GatewaySettings) -> int:
             say(line)
 
     def services(bus: Bus) -> list[Service]:
-        return [*([page.show(bus)] if page is not None else []), *services_of(bus, bridges, ports, known, say)]
+        shown: list[Service] = [page.show(bus)] if page is not None else []
+        return shown + (services_of(bus, bridges, ports, known, say) if settings.bridges.wanted else [])
 
     others: list[Service] = [page] if page is not None else []
     with ExitStack() as stack:

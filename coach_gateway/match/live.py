@@ -4,7 +4,7 @@ One task follows the bus. Requests to the host wait in threads, so that they del
 """
 
 import asyncio
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeVar
 
@@ -103,11 +103,10 @@ class LiveMatch:
         """The sides whose base stations are connected to a league's referee box."""
         return [side for side in Side if side.value in self.follower.refboxes]
 
-    def beliefs(self, sides: Iterable[Side]) -> dict[str, Belief]:
+    def beliefs(self, sides: Collection[Side]) -> dict[str, Belief]:
         """Robot → its newest belief, of these sides, in its team's frame."""
-        wanted = list(sides)
         beliefs = self.follower.beliefs
-        return {name: beliefs[name] for name in sorted(beliefs, key=natural_order) if self.sides.get(name) in wanted}
+        return {name: beliefs[name] for name in sorted(beliefs, key=natural_order) if self.sides.get(name) in sides}
 
     def obstacles(self, side: Side) -> list[TeamObstacle]:
         """Opponents and other bodies as this side believes them, in its team frame."""

@@ -20,7 +20,7 @@ MOST_OBJECTS = 100
 DEEPEST = 20
 """Levels of objects and lists in one another; world states have five."""
 _END = b"\x00"
-_SILENT = b"\x00\r\n"
+_SILENT = b"\x00\r\n "
 """Bytes without meaning between characters."""
 _NOT_BLANK = re.compile(r"\S")
 _DECODER = json.JSONDecoder(strict=False)
@@ -69,7 +69,7 @@ class Framer:
         if character in BY_CHARACTER and (self.protocol is BoxProtocol.CHARACTERS or character != " "):
             self.protocol = BoxProtocol.CHARACTERS
             messages.append(character)
-        elif byte not in (_SILENT[:1], _SILENT[1:2], _SILENT[2:], b" "):
+        elif byte not in _SILENT:
             self.garbage += 1
         return at + 1
 

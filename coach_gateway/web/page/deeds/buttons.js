@@ -84,13 +84,13 @@ export class Buttons {
     Object.assign(this, { match, requests, selection });
     const place = byId("buttons");
     for (const [title, rows] of GROUPS) place.append(this.#group(title, rows));
-    byId("stop").addEventListener("click", () => this.stop(byId("stop")));
+    byId("stop").addEventListener("click", () => this.stop());
     match.on("welcome host state refbox health orders", () => this.update());
   }
 
   /** Stops the match, or as a coach the own side. */
-  stop(source = byId("stop")) {
-    const { match } = this;
+  stop() {
+    const { match } = this, source = byId("stop");
     if (match.may("stop")) return this.#ask(source, { text: "Stop", action: "stop" });
     if (match.role !== "referee" && match.may("order", match.role)) return this.#ask(source, { text: `Hold ${match.role}`, order: "hold", side: match.role });
     return null;
@@ -138,15 +138,14 @@ export class Buttons {
 
   #group(title, rows) {
     const group = element("fieldset", { class: "group" }, element("legend", {}, title));
-    const names = { side: ["For a side", "Teams"].includes(title), robot: title === "For the robot" };
-    if (names.side) {
+    if (["For a side", "Teams"].includes(title)) {
       group.append(
         element("div", { class: "row heads", aria: { hidden: "true" } }, ...["cyan", "magenta"].map((side) =>
           element("span", { class: `team ${side}` }, element("span", { class: "mark" }), element("span", { data: { team: side } })))),
       );
     }
     this.#groups.push(group);
-    if (names.robot) group.append(this.#robotChoice());
+    if (title === "For the robot") group.append(this.#robotChoice());
     for (const row of rows) group.append(element("div", { class: "row" }, ...row.map((one) => this.#button(one))));
     return group;
   }
