@@ -12,8 +12,8 @@ from schemas.config.settings import CommandLine
 from schemas.side import Side
 from schemas.wire.message import Name
 
-FIRST_SIGHT_FAILED = 3
-"""Exit status of an agent whose brain failed at its first sight: it would fail again."""
+FIRST_SIGHT_FAILED = 113
+"""Exit status of an agent whose brain failed at its first sight: it would fail again. No brain ends itself with it."""
 
 
 class BodyOptions(WithoutHost):

@@ -222,10 +222,9 @@ class MatchRun:
             else "before it began"
         )
         first = next(iter(self._plan.config.processes(side)))
-        log = self._supervisor.last_lines(first)
         return (
             f"match ended {when}: no robot of {self._names.with_side(side)} is left; "
-            f"{first}: {log[-1] if log else 'no reason logged'}; logs are in {self._plan.folder}"
+            f"{first}: {self._supervisor.reason(first)}; logs are in {self._plan.folder}"
         )
 
     def _outcome(self, follower: MatchFollower | None) -> MatchResult:

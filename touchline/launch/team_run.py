@@ -115,9 +115,7 @@ class TeamRun:
         elif follower.gone:
             self._screen.event("the host is gone", notable=True)
         else:
-            first = self._robots[0]
-            log = self._supervisor.last_lines(first)
-            reason = log[-1].removeprefix("touchline: ") if log else "no reason logged"
+            reason = self._supervisor.reason(self._robots[0])
             raise MatchFailedError(f"no robot of {self._plan.side} is left; {reason}; logs are in {self._plan.folder}")
 
     def _process(self, robot: str) -> Process:

@@ -144,6 +144,12 @@ class Supervisor:
         """The last lines of a process's log."""
         return self._running[name].last_lines() if name in self._running else []
 
+    def reason(self, name: str) -> str:
+        """Why a process has ended: the last line of its log, or else its exit status."""
+        log, status = self.last_lines(name), self.ended.get(name)
+        how = f"it {ending(status)} and " if status is not None else ""
+        return log[-1].removeprefix("touchline: ") if log else f"{how}logged nothing"
+
     def failure(self, name: str) -> tuple[int | None, list[str]]:
         """Exit status and last lines of a process: None and none if it was not started.
 

@@ -20,7 +20,7 @@ class Actor:
         self.exceeded = ""
         self.ended: int | None = None
         self.heard: list[tuple[float, signal.Signals]] = []
-        self.has_core = True
+        self.has_core = self.speaks = True
         self._clock = clock
         self._deaf_to = deaf_to
 
@@ -36,7 +36,7 @@ class Actor:
         return 0.0 if self.has_core else self._clock.now()
 
     def last_lines(self, count: int = 5) -> list[str]:
-        return [f"last word of {self.name}"]
+        return [f"last word of {self.name}"] if self.speaks else []
 
     def breach(self) -> str:
         return self.exceeded
@@ -204,6 +204,24 @@ def test_a_team_s_own_program_may_use_any_status(status: int) -> None:
     stage.end("cyan1", status)
     (notice,) = stage.supervisor.check()
     assert notice.sentence == f"cyan1 ended with status {status}; started again (1 of 3)"
+
+
+def test_a_brain_that_ends_its_process_later_is_launched_again_whatever_its_status() -> None:
+    stage = Stage(agents=AgentSettings(robot="cyan1", brain="my_team:Striker"))
+    stage.end("cyan1", 3)
+    (notice,) = stage.supervisor.check()
+    assert notice.sentence == "cyan1 ended with status 3; started again (1 of 3)"
+
+
+def test_the_reason_of_an_end_is_what_the_process_said_or_else_its_status() -> None:
+    stage = Stage()
+    assert stage.supervisor.reason("cyan1") == "last word of cyan1"
+    for actor in stage.cast["cyan1"]:
+        actor.speaks = False
+    assert stage.supervisor.reason("cyan1") == "logged nothing"
+    stage.end("cyan1", 0)
+    stage.supervisor.check()
+    assert stage.supervisor.reason("cyan1") == "it ended with status 0 and logged nothing"
 
 
 def test_a_page_and_a_recorder_that_end_with_status_0_are_not_reported() -> None:
