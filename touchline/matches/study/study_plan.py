@@ -9,6 +9,7 @@ from pathlib import Path
 import pandas as pd
 
 from schemas.config.match_config import MatchConfig
+from schemas.errors import TouchlineError
 from touchline.matches.engine.inputs_only import with_inputs_only
 from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.planned_match import PlannedMatch
@@ -17,6 +18,7 @@ from touchline.matches.statistics.paired import is_narrow
 from touchline.matches.study.cells import Cell
 from touchline.matches.study.match_figures import Value
 from touchline.matches.study.result_table import COUNTS, result_table
+from touchline.matches.study.sentences import sentence_of_missing
 from touchline.matches.study.study_config import Study
 
 RECORDINGS = "recordings"
@@ -38,11 +40,18 @@ class StudyPlan:
     measured: dict[str, Mapping[str, Value]] = field(default_factory=dict, repr=False, compare=False)
     """Identity of a match → values of the study's functions."""
     _of_seeds: dict[int, tuple[SeedMatch, ...]] = field(init=False, default_factory=dict, repr=False, compare=False)
+    _known: set[str] = field(init=False, default_factory=set, repr=False, compare=False)
+    """Names of the figures of the first seed's matches, once these were played."""
     _narrow: dict[int, bool] = field(init=False, default_factory=dict, repr=False, compare=False)
     """Number of seeds, all of which were played → whether the interval is narrow enough, or none ever will be."""
 
     def due(self, outcomes: Mapping[str, Outcome]) -> list[PlannedMatch]:
-        """All matches that can be played now and have no outcome; none when the study is complete."""
+        """All matches that can be played now and have no outcome; none when the study is complete.
+
+        Raises:
+            TouchlineError: the matches of the first seed have no figure of the name of a response.
+        """
+        self._check_responses(outcomes)
         matches = self.matches(self.seeds_due(outcomes))
         distinct = {one.identity: one for one in matches}
         return [one.planned for identity, one in distinct.items() if identity not in outcomes]
@@ -63,8 +72,7 @@ class StudyPlan:
                 break
             if number not in self._narrow:
                 table, primary, limit = self.table(seeds, outcomes), self.study.primary, self.study.until_interval
-                is_unknown = primary not in table and not any(part in primary for part in COUNTS)
-                self._narrow[number] = is_unknown or is_narrow(table, primary, self.study.matches_of_seed, limit)
+                self._narrow[number] = is_narrow(table, primary, self.study.matches_of_seed, limit)
             if self._narrow[number]:
                 break
             number = min(most, number + len(first))
@@ -80,6 +88,14 @@ class StudyPlan:
     def table(self, seeds: Sequence[int], outcomes: Mapping[str, Outcome]) -> pd.DataFrame:
         """The results of these seeds, one row a match."""
         return result_table(self.matches(seeds), self.cells, outcomes, self.measured)
+
+    def _check_responses(self, outcomes: Mapping[str, Outcome]) -> None:
+        seeds = self.study.first_seeds[:1]
+        if not self._known and all(one.identity in outcomes for one in self.matches(seeds)):
+            self._known.update(self.table(seeds, outcomes))
+            for name in self.study.responses if "duration" in self._known else ():  # one was played
+                if name not in self._known and not any(part in name for part in COUNTS):
+                    raise TouchlineError(sentence_of_missing(name, sorted(self._known)))
 
     def _of_seed(self, seed: int) -> Iterator[SeedMatch]:
         for number, cell in enumerate(self.cells):

@@ -41,15 +41,17 @@ def test_a_study_file_alone_runs_the_study_and_its_folder_is_reproduced(tmp_path
     assert "the table of results is the same to the byte" in text
 
 
-def test_a_response_that_no_match_has_is_named_where_the_answers_are(tmp_path: Path) -> None:
-    (tmp_path / "try.toml").write_text(STUDY.replace('["distance"]', '["distance", "goal"]'))
+@pytest.mark.parametrize("responses", ['["distance", "goal"]', '["goal"]'])
+def test_a_response_that_no_match_has_is_refused_after_the_first_seed(tmp_path: Path, responses: str) -> None:
+    (tmp_path / "try.toml").write_text(STUDY.replace('["distance"]', responses).replace('"1-2"', '"1-60"'))
     status, text = run(tmp_path / "try.toml", "--out", tmp_path / "out", "--jobs", "1")
-    assert status == 0
-    assert 'No match has a figure goal; did you mean "goals"?' in text.splitlines()
+    assert status == 2
+    assert 'No match has a figure goal; did you mean "goals"?' in text
+    assert not (tmp_path / "out" / "index.html").exists()
 
 
-def test_no_match_fails_by_a_first_response_that_no_match_has(tmp_path: Path) -> None:
-    (tmp_path / "try.toml").write_text(STUDY.replace('"distance"', '"goal"'))
+def test_no_match_fails_by_a_first_response_that_was_counted_in_none(tmp_path: Path) -> None:
+    (tmp_path / "try.toml").write_text(STUDY.replace('"distance"', '"first.fouls.charging"'))
     status, text = run(tmp_path / "try.toml", "--out", tmp_path / "out", "--jobs", "1", "--failures", "1")
     assert status == 0, text
     assert "no failures" in text.splitlines()

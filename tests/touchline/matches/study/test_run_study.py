@@ -67,7 +67,9 @@ def test_seeds_are_added_until_the_interval_is_narrow_or_the_budget_is_spent(run
     wide = "until_interval = 1e-9\nmost_seeds = 3\n" + SHORT.replace('responses = ["', 'responses = ["distance", "')
     assert run(wide).seeds == [1, 2, 3]
     shutil.rmtree(home)
-    assert run(wide.replace('"distance"', '"distanse"')).seeds == [1, 2]  # no seed ever shows it
+    with pytest.raises(TouchlineError, match='No match has a figure distanse; did you mean "distance"'):
+        run(wide.replace('"distance"', '"distanse"'))
+    assert run(wide).seeds == [1, 2, 3], "the matches of the first seed stay"
     shutil.rmtree(home)
     assert run(wide.replace("[factors]\nradio.loss = [0, 0.4]", "").replace("1e-9", "1000.0")).seeds == [1, 2]
 
