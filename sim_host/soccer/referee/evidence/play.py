@@ -51,10 +51,6 @@ class Play(NamedTuple):
         """The last touch of a side."""
         return self.cyan if side is Side.CYAN else self.magenta
 
-    def touched_by(self, match: MatchConstants, side: Side) -> int:
-        """Number of robots of a side that have touched the ball."""
-        return sum(match.roster.side_of(name) is side for name in self.robots)
-
 
 NO_TOUCHES = Play()
 """No robot has touched the ball."""
