@@ -6,7 +6,7 @@ from coach_gateway.access.referee_name import gateway_name
 from coach_gateway.match.orders import OrderFollower, Receipt
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from coach_gateway.timing import POLL_S
-from runtime.bus.contract import Bus, NoReplyError, PresenceKind, Publisher
+from runtime.bus.contract import Bus, NoReplyError, PresenceKind, Publisher, RefusedQueryError
 from runtime.process.timing import REQUEST_S
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.coach import CoachOrder
@@ -46,9 +46,9 @@ class HostClient:
             wait = self._patience if patience is None else patience
             return self._bus.query(topic, request, wait).result(wait)
         except NoReplyError as error:
-            raise TouchlineError(
-                f'match "{self._bus.match}": {error}; name the match that the host plays with --match'
-            ) from None
+            is_refused = isinstance(error, RefusedQueryError)
+            remedy = "" if is_refused else "; name the match that the host plays with --match"
+            raise TouchlineError(f'match "{self._bus.match}": {error}{remedy}') from None
         except BadMessageError as error:
             raise TouchlineError(f"{topic.key}: the host's reply cannot be read: {error}") from None
 

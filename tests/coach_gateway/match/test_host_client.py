@@ -1,3 +1,5 @@
+import threading
+
 import pytest
 
 from coach_gateway.match.host_client import HostClient
@@ -48,6 +50,16 @@ def host(medium: SharedState):
 @pytest.fixture
 def gateway(medium: SharedState, host: list[RefereeAction]) -> HostClient:
     return HostClient(seat(medium))
+
+
+def test_what_a_host_refuses_to_read_has_its_reason_and_no_other_remedy(medium: SharedState) -> None:
+    """As of a program of another version, whose match has the right name."""
+    server = seat(medium).serve(ACTION)
+    answering = threading.Thread(target=lambda: server.mailbox.get(5.0).fail("version 1.0 is not read"))
+    answering.start()
+    with pytest.raises(TouchlineError, match=r'^match "friendly": version 1\.0 is not read$'):
+        HostClient(seat(medium)).act(RefereeAction(action=ActionName.STOP))
+    answering.join()
 
 
 def test_an_action_reaches_the_referee_and_its_answer_comes_back(
