@@ -63,7 +63,8 @@ def guarded_hardware(settings: AgentSettings, setup: Setup, clock: Clock) -> Ite
     try:
         hardware: Hardware = build(model, **chosen.options)
     except Exception as error:
-        raise TouchlineError(f"{said}; {name}(model, …) raised {sentence_of(error)}; check its options") from error
+        fault = f"{name}(model, …) raised {sentence_of(error)}; check its options"
+        raise TouchlineError(f"{said}; {error if isinstance(error, TouchlineError) else fault}") from error
     guard = HardwareGuard(hardware, chosen, model, settings.robot, clock, armed=settings.body.arm)
     is_over = threading.Event()
     watch = threading.Thread(target=_watch, args=(guard, setup.time.tick, is_over), daemon=True)

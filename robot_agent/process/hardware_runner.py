@@ -1,5 +1,6 @@
 """Runs a brain on a robot's own hardware, at the robot's own rate: readings in, a sight, a demand out."""
 
+import math
 from typing import NamedTuple
 
 from robot_agent.hardware.clearance import keep_clear
@@ -45,7 +46,7 @@ class HardwareRunner(BrainRunner):
         self._robot, self._side, self._period = robot, setup.sides[robot], setup.time.tick
         self._setup = setup.for_robot(robot)
         self._percepts = OwnPercepts()
-        self._due = guard.time
+        self._due = self._began = guard.time
         self._health_due = 0.0
         self._tick = -1
         self._sent_tick: int | None = None
@@ -129,6 +130,9 @@ class HardwareRunner(BrainRunner):
         if now >= self._health_due:
             self._health_due = now + IDLE_S
             self._health.put(self.guard.health())
+            if self._percepts.posed is None and now - self._began > _OLD_NEWS:
+                self._began = math.inf  # said once
+                log_line(f"{self._robot}: sense has given no motion yet, and a brain is asked with one", Level.WARNING)
 
     def _hear(self, now: float) -> None:
         """Take over what has arrived."""

@@ -93,7 +93,8 @@ def _gate(subject: "Subject", scenes: int, seconds: float, clearance: float | No
         results.append(result)
         if not json:
             said = f"rejected: {result.rejected}" if result.rejected else "run"
-            figures = f"clearance {result.clearance:.2f} m, {result.clamped} demands shortened"
+            clear = f"{result.clearance:.2f} m" if result.clearance is not None else "unknown"
+            figures = f"clearance {clear}, {result.clamped} demands shortened"
             typer.echo(f"scene {result.seed:<4} {said}; {figures}")
     rejected = sum(bool(result.rejected) for result in results)
     if json:

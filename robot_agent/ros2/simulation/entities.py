@@ -44,7 +44,7 @@ def named(entities: Mapping[str, Entity], name: str) -> Entity:
         RefusedError: there is none.
     """
     if name not in entities:
-        raise RefusedError(Code.NOT_FOUND, f"no entity is named {name}; there are {', '.join(entities)}")
+        raise RefusedError(Code.NOT_FOUND, f'no entity is named "{name}"; there are {", ".join(entities)}')
     return entities[name]
 
 

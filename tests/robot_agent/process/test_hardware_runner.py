@@ -9,7 +9,10 @@ from pytest import approx
 from robot_agent.hardware.dummy import Dummy
 from robot_agent.hardware.guard import HardwareGuard
 from robot_agent.hardware.settings import HardwareSettings
+from robot_agent.process.hardware_run import guarded_hardware
 from robot_agent.process.hardware_runner import HardwareRunner, RunnerWithoutHost
+from robot_agent.process.settings import AgentSettings, BodyOptions
+from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
 from schemas.messages.radio import Radio
 from schemas.messages.sight import ReceivedRadio
@@ -82,6 +85,24 @@ def test_an_unchanged_brain_drives_the_hardware_to_what_its_own_camera_sees(fiel
     assert (sights[0].self.x, sights[0].obstacles[0].x) == (-attack * 1.0, attack * 3.0)
     assert sights[0].game.running and sights[0].game.phase is TeamPhase.PLAY
     assert sights[5].outcome.answers_tick == sights[4].tick
+
+
+def test_hardware_that_never_measures_a_motion_is_named_once(field, capfd):
+    robot, other = field.robot("cyan2"), field.robot("cyan3")
+    sense = robot.guard.sense
+    robot.guard.sense = lambda: replace(sense(), motion=None)
+    play(200, robot, other)
+    assert robot.brain.seen == []
+    said = [line for line in capfd.readouterr().err.splitlines() if "sense has given no motion yet" in line]
+    assert len(said) == 1 and "cyan2" in said[0]
+
+
+def test_hardware_that_finds_a_fault_itself_is_quoted_as_it_is(setup, tmp_path):
+    (tmp_path / "robot.toml").write_text('hardware = "replayed"\n[options]\nrecording = "none.mcap"\nrobot = "cyan1"\n')
+    settings = AgentSettings(robot="cyan2", body=BodyOptions(hardware=str(tmp_path / "robot.toml")))
+    fault = 'hardware is "replayed"; none.mcap: No such file or directory; give the path of a recording'
+    with pytest.raises(TouchlineError, match=f"^{fault}$"), guarded_hardware(settings, setup, SteppedClock()):
+        pass
 
 
 def test_teammates_without_a_host_hear_each_other_and_nobody_else(field):

@@ -43,8 +43,8 @@ class SceneResult(NamedTuple):
     seed: int
     rejected: str
     """Why the team may not run, with the tick; empty where it may."""
-    clearance: float
-    """Smallest distance in m between two hulls, or a hull and the boundary."""
+    clearance: float | None
+    """Smallest distance in m between two hulls, or a hull and the boundary; None where no tick was played."""
     clamped: int
     """Demands beyond a limit of the profile."""
     slowest_ms: float
@@ -67,7 +67,7 @@ def pass_scenes(
             try:
                 yield processes.submit(_pass_watched, subject, seed, seconds, clearance, hang_s).result()
             except DiedProcessError as error:
-                yield SceneResult(seed, died_sentence(error, hang_s), 0.0, 0, 0.0)
+                yield SceneResult(seed, died_sentence(error, hang_s), None, 0, 0.0)
     finally:
         processes.shutdown(cancel_futures=True)
 
@@ -139,7 +139,7 @@ class _Watch:
         self._reach = {name: model.body.reach for name, model in models_of(config, profile).items()}
         self._obstacles = [(one.name, one.place[0], one.place[1], one.reach) for one in obstacles]
         self._half = profile.field.length / 2 + profile.field.border, profile.field.width / 2 + profile.field.border
-        self.clearance = math.inf
+        self.clearance: float | None = None
         self.fault = ""
         """The first fault, with its tick."""
 
@@ -159,7 +159,7 @@ class _Watch:
             self._note(result.tick, gap, f"{name} touches the boundary")
 
     def _note(self, tick: int, gap: float, fault: str) -> None:
-        self.clearance = min(self.clearance, gap)
+        self.clearance = max(0.0, gap if self.clearance is None else min(self.clearance, gap))
         if gap < _TOUCH:
             self.fault = f"tick {tick}: {fault}"
             raise EndedEarlyError
