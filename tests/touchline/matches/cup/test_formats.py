@@ -183,6 +183,12 @@ def test_teams_of_a_group_do_not_meet_again_in_the_first_round_of_the_knock_out(
     assert all(str(one)[0] != str(other)[0] for one, other in met)
 
 
+def test_tiers_in_which_teams_of_a_group_meet_again_in_any_order_are_seeded_all_the_same() -> None:
+    tables = [[f"{group}{place}" for place in range(9)] for group in "ABCDEFG"]
+    seeded = seeded_from(tables)
+    assert seeded[:7] == [f"{group}0" for group in "ABCDEFG"] and len({*seeded}) == 63
+
+
 def ranked(order: Sequence[str]) -> Callable[[Sequence[FixtureResult], Sequence[str]], list[str]]:
     return lambda results, byes: [row.team for row in table(order, results, Ranking(), byes)]
 
