@@ -267,25 +267,8 @@ def load_match(path: Path | str | None, overrides: dict[str, Any] | None = None)
             _drop_program(content["teams"], _REMOTE_KEYS[key])
     if content.get("scene") is not None and content.get("obstacles"):
         raise TouchlineError(f"{where}: a match that starts in a scene has the scene's obstacles; write these there")
-    _check_robots(content, overrides or {}, where)
     content = with_program(_with_number_files(_with_scene(content), where), where, folders)
-    return _validate(content, where)
-
-
-def _check_robots(content: dict[str, Any], overrides: dict[str, Any], where: str) -> None:
-    """Refuse what gives a side's robots twice; an override may replace the robots of a file by a scene."""
-    teams, is_scene = content.get("teams"), content.get("scene") is not None
-    for side in Side:
-        team = teams.get(side.value) if isinstance(teams, dict) else None
-        if not isinstance(team, dict):
-            continue
-        for key in ("size", "robots", "types"):
-            at = f"teams.{side.value}.{key}"
-            if is_scene and key in team and (at in overrides or "scene" not in overrides):
-                raise TouchlineError(f"{where}: a match that starts in a scene has the scene's robots; leave {at} out")
-        size, named = team.get("size"), team.get("robots")
-        if size is not None and isinstance(named, list) and len(named) not in (0, size):
-            raise TouchlineError(f"{where}: teams.{side.value} has size = {size} and names {named}; leave one out")
+    return _validate(content, where, overrides or {})
 
 
 def _with_scene(content: dict[str, Any]) -> dict[str, Any]:
@@ -327,7 +310,7 @@ def _drop_program(teams: Any, side: Side) -> None:
             team.pop(kind, None)
 
 
-def _validate(content: dict[str, Any], where: str) -> MatchConfig:
+def _validate(content: dict[str, Any], where: str, overrides: dict[str, Any]) -> MatchConfig:
     for side, default in (("cyan", default_cyan()), ("magenta", default_magenta())):
         teams = content.get("teams")
         team = teams.get(side) if isinstance(teams, dict) else None
@@ -336,4 +319,10 @@ def _validate(content: dict[str, Any], where: str) -> MatchConfig:
         if isinstance(team, dict) and not set(PROGRAM_KINDS) & set(team) and team.get("remote") is not True:
             team["brain"] = default.brain
             team.setdefault("name", default.name)
+        given = team if isinstance(team, dict) else {}
+        for at, key in ((f"teams.{side}.{key}", key) for key in ("size", "robots", "types") if key in given):
+            if content.get("scene") is not None and (at in overrides or "scene" not in overrides):
+                raise TouchlineError(f"{where}: a match that starts in a scene has the scene's robots; leave {at} out")
+            if key == "size" and isinstance(named := given.get("robots"), list) and len(named) not in (0, given[key]):
+                raise TouchlineError(f"{where}: {at} is {given[key]}, and robots names {named}; leave one out")
     return validate_tables(MatchConfig, content, where, REMEDIES)

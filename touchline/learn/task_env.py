@@ -75,12 +75,9 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         """
         plain = load_task(task, overrides=overrides)
         known = [*SETTINGS, *plain.config.team(plain.side).parameters]
-        for name in parameters or {}:
-            if name not in known:
-                raise TouchlineError(
-                    f"{name!r} is no parameter of a policy, and one of a brain goes into overrides; "
-                    + did_you_mean(name, known)
-                )
+        if wrong := [name for name in parameters or {} if name not in known]:
+            what = f"{wrong[0]!r} is no parameter of a policy, and one of a brain goes into overrides"
+            raise TouchlineError(f"{what}; {did_you_mean(wrong[0], known)}")
         given = {f"teams.{plain.side.value}.parameters.{name}": value for name, value in (parameters or {}).items()}
         self._task = load_task(task, overrides={**(overrides or {}), **given})
         if observation not in OBSERVATIONS:
@@ -88,7 +85,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         modes = self.metadata["render_modes"]
         if render_mode not in (None, *modes):
             raise TouchlineError(f'render_mode is "{render_mode}"; {did_you_mean(render_mode, modes)}')
-        if max_cycles is not None and (not _is_whole(max_cycles) or max_cycles < 1):
+        if max_cycles is not None and (not isinstance(max_cycles, int | np.integer) or max_cycles < 1):
             raise TouchlineError(f"max_cycles is {max_cycles!r}; give a whole number of steps, or leave it out")
         self.render_mode = render_mode
         self.possible_agents = _agents(self._task, robots)
@@ -155,7 +152,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
             raise TouchlineError(f"record is {record!r}; give the path of an MCAP file")
         if seed is None:
             seed = int(self._seeds.integers(2**31))
-        elif not _is_whole(seed) or not 0 <= seed < 2**63:
+        elif isinstance(seed, bool) or not isinstance(seed, int | np.integer) or not 0 <= seed < 2**63:
             raise TouchlineError(f"seed is {seed!r}; give a whole number from 0 to 2^63 - 1")
         else:
             self._seeds = np.random.default_rng(seed)
@@ -321,10 +318,6 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         if agent not in self.action_spaces:
             raise TouchlineError(f"{agent!r} is no agent; {did_you_mean(agent, self.possible_agents)}")
         return agent
-
-
-def _is_whole(value: object) -> bool:
-    return isinstance(value, int | np.integer) and not isinstance(value, bool)
 
 
 def _agents(task: Task, robots: Sequence[str] | None) -> list[str]:

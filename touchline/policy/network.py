@@ -55,18 +55,11 @@ class Network:
         return units
 
     def save(self, path: Path) -> None:
-        """Write the network into a file.
-
-        Raises:
-            TouchlineError: its name does not end in `.npz`, by which `policy:FILE` knows what it holds.
-        """
-        if path.suffix != ".npz":
-            raise TouchlineError(f"{path}: the name of a saved network ends in .npz")
+        """Write the network into a file, whose name gets the ending `.npz` where it has another."""
         arrays: dict[str, Any] = {}
         for number, (weights, offsets) in enumerate(self._layers):
             arrays |= {f"weights{number}": weights, f"offsets{number}": offsets}
-        with path.open("wb") as file:
-            np.savez(file, allow_pickle=False, **arrays)
+        np.savez(path, allow_pickle=False, **arrays)
 
     @classmethod
     def load(cls, path: Path) -> Self:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from robot_agent.sdk.bodies import Moving
 from robot_agent.soccer.skills.keep_off import inside
 from robot_agent.soccer.skills.shoot import lane_width
+from schemas.config.rolling import GRAVITY
 from schemas.frames import Point
 from schemas.messages.command import Kick, KickMode
 from schemas.messages.setup import Setup
@@ -13,8 +14,6 @@ from schemas.messages.setup import Setup
 AIR = 0.2
 """m by which the ball gets away from a robot that accelerates after it. The rule book asks for 0.1 m of air, and a held
 ball is up to 4 mm deep in the hull."""
-_GRAVITY = 9.81
-"""m/s²."""
 AHEAD = 1.8
 """m of ground that must be free of opponents for it."""
 CATCHES = 0.8
@@ -46,5 +45,5 @@ def let_go(me: Moving, opponents: Sequence[Point], setup: Setup) -> Kick | None:
 def faster(setup: Setup) -> float:
     """m/s that the ball gets more than the robot has: a ball that is kicked without spin slides at first."""
     slides = setup.kicker.kick_spin < 1.0
-    slows = _GRAVITY * setup.ball.friction if slides else setup.ball.rolling_deceleration
+    slows = GRAVITY * setup.ball.friction if slides else setup.ball.rolling_deceleration
     return math.sqrt(2.0 * (slows + setup.drive.acceleration) * AIR)

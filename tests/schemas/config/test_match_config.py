@@ -55,7 +55,7 @@ def test_the_name_of_a_shipped_team_is_a_brain(tmp_path: Path) -> None:
         ("[profile_tables]", 'profile_tables is not for match files; write profile = "FILE.toml"'),
         ("matsch = 1", "known: name, seed, pace, duration, scene, profile, rules, teams, types,"),
         ('[task]\nscre = "a:b"', 'task.scre is not known; did you mean "score"?'),
-        ('[teams.cyan]\nsize = 5\nrobots = ["a"]', "teams.cyan has size = 5 and names ['a']; leave one out"),
+        ('[teams.cyan]\nsize = 5\nrobots = ["a"]', "teams.cyan.size is 5, and robots names ['a']; leave one out"),
         *(
             (f'scene = "penalty"\n[teams.magenta]\n{key}', f"the scene's robots; leave teams.magenta.{key[:4]}")
             for key in ("size = 1", 'robots = ["a"]', 'types = { magenta1 = "keeper" }')
