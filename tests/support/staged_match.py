@@ -84,9 +84,12 @@ class StagedMatch:
 
     def miss_penalty(self) -> None:
         """The first penalty of a shoot-out is missed."""
-        missed = "penalty of cyan missed: ball out, no goal"
-        event = make_event(self.host.state.tick, missed, EventKind.SHOT, side=Side.CYAN, score=Score())
-        self.host.put(EVENT, event)
+        tick = self.host.state.tick
+        self.host.put(EVENT, make_event(tick, "penalty missed", EventKind.SHOT, side=Side.CYAN, score=Score()))
+
+    def reset(self) -> None:
+        """Somebody goes back to the start of the match."""
+        self.host.put(EVENT, make_event(self.host.state.tick, "goes back to the start", EventKind.SCENE, rule="reset"))
 
     def end(self) -> None:
         """Full time."""

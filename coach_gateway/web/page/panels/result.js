@@ -12,19 +12,19 @@ const COUNTS = [
   ["ball out", (event) => event.kind === "ball_out"],
 ];
 
-/** The goals of a list of events that count in the end: {side, robot, clock}; goals that were taken back are left out. */
+/** The goals of a list of events that count in the end: {side, robot, clock}; without those taken back or before a reset. */
 export function goalsOf(events, score) {
   const goals = [];
-  const takeBack = (side) => {
-    const place = goals.findLastIndex((goal) => goal.side === side);
-    if (place >= 0) goals.splice(place, 1);
+  const takeBack = (after) => {
+    for (const one of SIDES) while (count(goals, one) > after[one]) goals.splice(goals.findLastIndex(({ side }) => side === one), 1);
   };
-  for (const { kind, side, robot, clock, text, score: after } of events) {
+  for (const { kind, rule, side, robot, clock, text, score: after } of events) {
+    if (kind === "scene" && ["load", "reset"].includes(rule)) goals.length = 0; // another episode
     if (kind === "goal" && side) goals.push({ side, robot: robot ?? null, clock });
     const isOfPenalties = kind === "shot" || text.includes("in the shoot-out");
-    if (after && !isOfPenalties) for (const one of SIDES) while (count(goals, one) > after[one]) takeBack(one);
+    if (after && !isOfPenalties) takeBack(after);
   }
-  for (const one of SIDES) while (count(goals, one) > score[one]) takeBack(one);
+  takeBack(score);
   return goals;
 }
 

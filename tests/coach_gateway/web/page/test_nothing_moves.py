@@ -131,14 +131,15 @@ def test_a_page_keeps_the_result_of_its_match_when_host_and_server_have_ended(
     assert tab.page.locator("#score").inner_text() == "10 : 0"
 
 
-def test_a_shoot_out_leaves_the_scorers_of_the_match_in_the_result(
-    staged: StagedMatch, visit: Callable[..., Any]
+@pytest.mark.parametrize("then", [["miss_penalty"], ["reset", "score"]])
+def test_the_result_has_the_scorers_of_the_goals_that_count(
+    then: list[str], staged: StagedMatch, visit: Callable[..., Any]
 ) -> None:
-    """The score of its events is that of the penalties."""
+    """The events of a shoot-out have the score of the penalties, and those before a reset are of another game."""
     tab = visit(staged.origin)
-    staged.score()
-    staged.miss_penalty()
-    tab.until("window.touchline.match.events.at(-1)?.kind === 'shot'")
+    for what in ["score", *then]:
+        getattr(staged, what)()
+    tab.until(f"window.touchline.match.events.length === {1 + len(then)}")
     tab.page.wait_for_timeout(100)
     assert tab.page.locator("#cyan-scorers").inner_text() == "Lions (cyan 3) 0:00.0"
 
