@@ -166,10 +166,10 @@ class Host:
         commands = self._manual.override(self.simulation.now.tick, self._roster.names, commands)
         silent = {name for name, is_silent in self._silent.items() if is_silent and name not in commands}
         requested = self._services.requests.actions
-        # the end of the game for a side whose robots go on above the limit of messages
-        ends = [
-            RefereeAction(action=ActionName.END_GAME, side=one, source="host") for one in self.accounts.forfeiting()
-        ]
+        # the end of the game for a side whose robots go on above the limit of messages; of both sides, neither wins
+        over = self.accounts.forfeiting()
+        loser = over[0] if len(over) == 1 else None
+        ends = [RefereeAction(action=ActionName.END_GAME, side=loser, source="host")] if over else []
         tick = self.simulation.step(
             commands, [*requested, *ends], self._send_sight, silent, self.presence.has_referee_box()
         )

@@ -109,20 +109,29 @@ def test_without_credentials_nobody_forfeits_since_anybody_may_have_flooded(rig)
     assert not rig.host.simulation.over
 
 
-@pytest.mark.parametrize(("loser", "robot"), [("cyan", "cyan2"), ("magenta", "magenta1")])
-def test_with_credentials_the_side_of_a_flooding_robot_forfeits(rig_of, loser, robot):
-    rig = rig_of()
+def flooded_by(rig, *robots):
+    """The events of a match with accounts that these robots flood."""
     rig.host.accounts.__init__(SIDES, has_accounts=True)
     rig.join_all()
     rig.begin()
     events = rig.listen(EVENT)
     for _ in range(5):
-        writer = rig.outside.publisher(COMMAND, robot=robot)
-        for _ in range(1000):
-            writer.put(Command(answers_tick=0))
+        for writer in [rig.outside.publisher(COMMAND, robot=robot) for robot in robots]:
+            for _ in range(1000):
+                writer.put(Command(answers_tick=0))
         if not rig.host.simulation.over:
             rig.ticks(1)
     assert rig.host.simulation.state.phase is Phase.FULL_TIME
+    return events
+
+
+def test_where_robots_of_both_sides_flood_neither_side_wins(rig):
+    assert EventKind.FORFEIT not in [event.kind for event in flooded_by(rig, "cyan2", "magenta1").all()]
+
+
+@pytest.mark.parametrize(("loser", "robot"), [("cyan", "cyan2"), ("magenta", "magenta1")])
+def test_with_credentials_the_side_of_a_flooding_robot_forfeits(rig, loser, robot):
+    events = flooded_by(rig, robot)
     (forfeit,) = [event for event in events.all() if event.kind is EventKind.FORFEIT]
     assert (forfeit.side, forfeit.text) == (Side(loser), f"{loser} forfeits: by decision of host")
     assert forfeit.score.of(Side(loser)) == 0 < forfeit.score.of(Side(loser).opponent)
