@@ -4,15 +4,7 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from schemas.messages.debug import (
-    Debug,
-    DebugCircle,
-    DebugCorner,
-    DebugLine,
-    DebugPoint,
-    DebugPolygon,
-    DebugText,
-)
+from schemas.messages.debug import Debug, DebugCircle, DebugCorner, DebugLine, DebugPoint, DebugPolygon, DebugText
 
 _DEFAULT = "yellow"
 

@@ -16,7 +16,7 @@ from schemas.messages.soccer.league.signals import (
 )
 from schemas.natural_order import natural_order
 from schemas.side import Side
-from schemas.soccer.game import GameStage, OffField, Phase
+from schemas.soccer.game import GameStage, OffField, Phase, Score
 
 _PHASES: Mapping[Phase, Signal] = {
     Phase.PARKING: BY_NAME["PARK"],
@@ -54,7 +54,7 @@ def calls(old: GameState | None, new: GameState, sides: Mapping[str, Side]) -> l
     if (changed and new.phase is Phase.STOPPED) or (ends_half and before.running):
         found.append(Call(STOP))
     for side in Side:
-        goals = new.score.of(side) - before.score.of(side)
+        goals = _goals(new, side) - _goals(before, side)
         found += [Call(BY_NAME["GOAL" if goals > 0 else "SUBGOAL"], side)] * abs(goals)
     found += _people(before, new, sides)
     if ends_half:
@@ -65,6 +65,11 @@ def calls(old: GameState | None, new: GameState, sides: Mapping[str, Side]) -> l
     if new.running and not before.running:
         found.append(Call(START))
     return found
+
+
+def _goals(state: GameState, side: Side) -> int:
+    """Goals of a side; for those of the shoot-out the box has the same signal."""
+    return state.score.of(side) + (state.shoot_out or Score()).of(side)
 
 
 def _end_of_half(new: GameState) -> Signal:

@@ -82,6 +82,11 @@ def restart(phase: Phase, side: Side | None, **content: Any) -> GameState:
             restart(Phase.PENALTY, Side.CYAN, half=4, stage=GameStage.SHOOT_OUT),
             ["PENALTY cyan"],
         ),
+        (
+            stopped(stage=GameStage.SHOOT_OUT, shoot_out=Score(cyan=1)),
+            stopped(stage=GameStage.SHOOT_OUT, shoot_out=Score(cyan=2)),
+            ["GOAL cyan"],
+        ),
         (stopped(half=2), state(phase=Phase.FULL_TIME, running=False, half=2), ["END_GAME", "GAMEOVER"]),
     ],
 )
