@@ -122,7 +122,7 @@ def _bodies(layout: Layout, specs: Specs) -> dict[str, Body]:
         hull, at = specs.types[entry.type].body, layout.at[entry.name]
         bodies[entry.name] = Disc(entry.name, at.x, at.y, hull.reach, 0.0, hull.height, core=hull.radius)
     for one in layout.obstacles:
-        bodies[one.name] = _obstacle(one, layout.at.get(one.name, one.placement))
+        bodies[one.name] = obstacle_body(one, layout.at.get(one.name, one.placement))
     if BALL in layout.at:
         radius, at = specs.ball.radius, layout.at[BALL]
         height = radius if at.z is None else at.z
@@ -130,7 +130,8 @@ def _bodies(layout: Layout, specs: Specs) -> dict[str, Body]:
     return bodies
 
 
-def _obstacle(one: ObstacleConfig, at: Placement) -> Body:
+def obstacle_body(one: ObstacleConfig, at: Placement) -> Body:
+    """An obstacle at a place, for `overlap`."""
     long, wide, high = one.extents
     if one.shape is Shape.CYLINDER:
         return Disc(one.name, at.x, at.y, long / 2, 0.0, high)

@@ -79,9 +79,8 @@ def overlap(body: Disc, other: Body) -> float:
     if body.bottom >= other.top or other.bottom >= body.top:
         return -math.inf
     if isinstance(other, Disc):
-        return (
-            _hull_distance(body, other) + _hull_distance(other, body) - math.hypot(body.x - other.x, body.y - other.y)
-        )
+        apart = math.hypot(body.x - other.x, body.y - other.y)
+        return _hull_distance(body, other) + _hull_distance(other, body) - apart
     along, across = rotate(body.x - other.x, body.y - other.y, -other.heading)
     away_x, away_y = abs(along) - other.half_x, abs(across) - other.half_y
     if away_x <= 0.0 and away_y <= 0.0:

@@ -9,7 +9,7 @@ import random
 from collections.abc import Iterator, Mapping
 from contextlib import closing
 from dataclasses import replace
-from itertools import combinations
+from itertools import chain, combinations, product
 from pathlib import Path
 from statistics import quantiles
 from typing import Any, NamedTuple
@@ -19,10 +19,12 @@ from runtime.process.clock import Clock, WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.config.obstacle import ObstacleConfig
 from schemas.config.profile import Profile
-from schemas.config.robot_model import models_of
+from schemas.config.robot_model import RobotModel, models_of
 from schemas.config.scene import Scene, SceneBall, SceneRobot
 from schemas.errors import TouchlineError
 from sim_host.match.simulation import TickResult
+from sim_host.staging.layout import obstacle_body
+from sim_host.staging.overlap import Disc, overlap
 from touchline.matches.engine.fresh_process import DiedProcessError, FreshProcesses
 from touchline.matches.engine.hang_watch import HangWatch
 from touchline.team.check.fresh_checks import died_sentence
@@ -114,17 +116,17 @@ def random_scene(config: MatchConfig, profile: Profile, seed: int) -> Scene:
     dice, pitch, models = random.Random(seed), profile.field, models_of(config, profile)
     given = config.scene
     obstacles = [*(given.obstacles if given is not None else config.obstacles)]
-    taken = [(one.place[0], one.place[1], one.reach) for one in obstacles]
+    taken = [obstacle_body(one, one.placement) for one in obstacles]
     robots = []
     for number, name in enumerate(config.robots(SIDE)):
-        reach = models[name].body.reach
         for _ in range(_TRIES):
             x, y = (dice.uniform(-0.45, 0.45) * side for side in (pitch.length, pitch.width))
-            if all(math.hypot(x - bx, y - by) > reach + radius + _ROOM for bx, by, radius in taken):
+            hull = _hull(name, x, y, models[name])
+            if all(-overlap(hull, other) > _ROOM for other in taken):
                 break
         else:
             raise TouchlineError(f"the floor has no room for {name}; name a match file with fewer robots or obstacles")
-        taken.append((x, y, reach))
+        taken.append(hull)
         keeper = number == 0 and len(config.robots(SIDE)) > 1
         heading = dice.uniform(-math.pi, math.pi)
         robots.append(SceneRobot(name=name, side=SIDE, x=x, y=y, heading=heading, keeper=keeper))
@@ -132,12 +134,16 @@ def random_scene(config: MatchConfig, profile: Profile, seed: int) -> Scene:
     return Scene(description=f"Robots at random, seed {seed}.", robots=robots, ball=ball, obstacles=obstacles)
 
 
+def _hull(name: str, x: float, y: float, model: RobotModel) -> Disc:
+    return Disc(name, x, y, model.body.reach, 0.0, math.inf)
+
+
 class _Watch:
     """Looks at the bodies of each tick."""
 
     def __init__(self, config: MatchConfig, profile: Profile, obstacles: list[ObstacleConfig]) -> None:
-        self._reach = {name: model.body.reach for name, model in models_of(config, profile).items()}
-        self._obstacles = [(one.name, one.place[0], one.place[1], one.reach) for one in obstacles]
+        self._models = models_of(config, profile)
+        self._obstacles = [obstacle_body(one, one.placement) for one in obstacles]
         self._half = profile.field.length / 2 + profile.field.border, profile.field.width / 2 + profile.field.border
         self.clearance: float | None = None
         self.fault = ""
@@ -150,13 +156,12 @@ class _Watch:
             EndedEarlyError: bodies touch, or a robot is at the boundary.
         """
         robots: Mapping[str, Any] = result.world["robots"]
-        bodies = [(name, one["x"], one["y"], self._reach[name]) for name, one in robots.items()]
-        pairs = [*combinations(bodies, 2), *((robot, other) for robot in bodies for other in self._obstacles)]
-        for (name, x, y, reach), (other, ox, oy, radius) in pairs:
-            self._note(result.tick, math.hypot(x - ox, y - oy) - reach - radius, f"{name} touches {other}")
-        for name, x, y, reach in bodies:
-            gap = min(half - abs(place) for half, place in zip(self._half, (x, y), strict=True)) - reach
-            self._note(result.tick, gap, f"{name} touches the boundary")
+        hulls = [_hull(name, one["x"], one["y"], self._models[name]) for name, one in robots.items()]
+        for hull, other in chain(combinations(hulls, 2), product(hulls, self._obstacles)):
+            self._note(result.tick, -overlap(hull, other), f"{hull.name} touches {other.name}")
+        for hull in hulls:
+            gap = min(half - abs(place) for half, place in zip(self._half, (hull.x, hull.y), strict=True))
+            self._note(result.tick, gap - hull.radius, f"{hull.name} touches the boundary")
 
     def _note(self, tick: int, gap: float, fault: str) -> None:
         self.clearance = max(0.0, gap if self.clearance is None else min(self.clearance, gap))

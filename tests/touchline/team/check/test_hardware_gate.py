@@ -95,6 +95,12 @@ def test_an_obstacle_of_the_match_file_counts_and_is_named():
     assert re.fullmatch(r"tick \d+: cyan1 touches post", result.rejected)
 
 
+def test_a_robot_beside_a_wall_does_not_touch_it():
+    wall = {"name": "wall", "shape": "box", "place": [0.0, 2.2], "size": [5.0, 0.1, 0.5]}
+    result = passed("Gathering", seconds=20.0, obstacles=[wall], **{"teams.cyan.size": 1})
+    assert result.rejected == "" and 0.0 < result.clearance < 2.0
+
+
 def test_scenes_differ_by_seed_alone_and_have_room_between_robots():
     config = load_match(None, {"teams.cyan.size": 5})
     scenes = [random_scene(config, config.load_profile(), seed) for seed in (1, 1, 2)]
