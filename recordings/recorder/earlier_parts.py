@@ -11,7 +11,7 @@ from recordings.reading.recording import open_recording
 from recordings.recorder.latched_messages import LATCHED, LatchedMessages
 from recordings.recorder.match_progress import FOLLOWED, MatchProgress
 from recordings.recorder.sequence_tracker import LossCounts
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, os_errors
 from schemas.topic import Party
 
 
@@ -42,7 +42,7 @@ def read_earlier_parts(path: Path, host: int) -> EarlierParts:
     earlier = EarlierParts(files)
     if not files:
         return earlier
-    with locked(files[-1]):
+    with os_errors(files[-1], "name another file, or move that one away"), locked(files[-1]):
         manifests = [found for file in files if (found := open_mcap_file(file).metadata.get(MANIFEST)) is not None]
         if not manifests:
             return earlier  # a recorder that was killed before it knew its match

@@ -212,3 +212,8 @@ def test_what_is_no_recording_is_not_continued(tmp_path: Path) -> None:
     (tmp_path / "match.mcap").write_bytes(b"not a recording")
     with pytest.raises(TouchlineError, match="not a recording"):
         read_earlier_parts(tmp_path / "match.mcap", host=0)
+
+
+def test_a_folder_in_place_of_an_earlier_part_is_one_line(tmp_path: Path) -> None:
+    with pytest.raises(TouchlineError, match=r"Is a directory; name another file, or move that one away"):
+        read_earlier_parts(tmp_path, host=0)
