@@ -120,7 +120,9 @@ def _disk(facts: MachineFacts) -> Finding:
 
 
 def _open_files(facts: MachineFacts) -> Finding:
-    if facts.open_files == resource.RLIM_INFINITY or facts.open_files >= _FEW_FILES:
+    if facts.open_files == resource.RLIM_INFINITY:
+        return Finding("limits", Status.OK, "any number of open files in a process")
+    if facts.open_files >= _FEW_FILES:
         return Finding("limits", Status.OK, f"{facts.open_files} open files in a process")
     return Finding(
         "limits",

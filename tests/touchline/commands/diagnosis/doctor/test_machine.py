@@ -1,5 +1,6 @@
 """What `touchline health --doctor` finds on a machine, from given facts."""
 
+import resource
 from dataclasses import replace
 from pathlib import Path
 
@@ -77,3 +78,7 @@ def test_the_offset_of_a_clock_is_known_within_half_a_round_trip() -> None:
 
 def test_without_a_message_of_the_host_its_clock_is_unknown() -> None:
     assert clock_offset([], 0.001) is None
+
+
+def test_no_limit_of_open_files_is_no_number() -> None:
+    assert found("limits", open_files=resource.RLIM_INFINITY).text == "any number of open files in a process"
