@@ -33,6 +33,8 @@ def not_checked(recording: Recording, *, referee: bool, why_no_referee: str) -> 
     topics = {channel.key: channel.topic for channel in recording.channels}
     found += [key for key in keys if topics[key] in _OF_PEOPLE_AND_PROCESSES]
     found += _incomplete(recording)
+    if recording.result is None:
+        found.append("what the match had after the end of the file (cut off, without a result)")
     if recording.damaged_records:
         found.append(f"messages in {recording.damaged_records} damaged records that a repair has left out")
     setup = recording.manifest.setup
