@@ -68,6 +68,8 @@ def match(
     from touchline.launch.processes.programs import CREDENTIALS, check_robot_names
     from touchline.launch.run_folder import RUNS, prepare_credentials, prepare_run, with_credentials
 
+    if no_record and record is not None:
+        raise TouchlineError(f"--record {record} and --no-record exclude each other; leave one of them out")
     teams: dict[str, Any] = {}
     if ghost:
         from touchline.play.ghost import check_ghosts, teams_of

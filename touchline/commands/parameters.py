@@ -29,11 +29,7 @@ Names = Annotated[list[str], typer.Argument(metavar="NAME...", help="Parameters,
 
 @app.command("list")
 @with_option_groups
-def list_all(
-    json: options.Json = False,
-    *,
-    connection: ClientSettings,
-) -> None:
+def list_all(json: options.Json = False, *, connection: ClientSettings) -> None:
     """List every parameter: value, unit, range, description, and whether it can be changed.
 
     Example: touchline parameters list --json | jq '.[] | select(.live).name'
@@ -43,12 +39,7 @@ def list_all(
 
 @app.command("get")
 @with_option_groups
-def get(
-    names: Names,
-    json: options.Json = False,
-    *,
-    connection: ClientSettings,
-) -> None:
+def get(names: Names, json: options.Json = False, *, connection: ClientSettings) -> None:
     """Show parameters or whole sections.
 
     Example: touchline parameters get ball radio.loss

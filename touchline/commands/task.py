@@ -88,6 +88,8 @@ def run(
     from touchline.matches.task.task import load_task
 
     options.check_numbers(at_least=at_least, below=below)
+    if not failures and (show or (below, out) != (None, None)):
+        raise TouchlineError("--below, --out and --show are about the recordings of --failures; give that, too")
     loaded = load_task(task, brain_of(brain) if brain is not None else None, options.settings_of(change or []))
     planned = episodes_of(loaded, _seeds(episodes, seeds))
     played = play_list(planned, jobs, loaded.name, _sentence, json=json)

@@ -118,6 +118,8 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "a number that is none": (["match", "--seed", "three"], "valid integer"),
     "a negative seed": (["match", "--seed", "-3"], "seed is -3; a whole number"),
     "a pace that is none": (["match", "--pace", "fast"], "pace is 'fast'; write \"lockstep\""),
+    "a recording that is none": (["match", "--no-record", "--record", "a.mcap"], "--no-record exclude each other"),
+    "the worst of no failures": (["task", "run", "coverage", "--show"], "--failures; give that, too"),
     "a duration below zero": (["match", "--duration", "-1"], "duration is -1"),
     "an unknown rule book": (["match", "--rules", "freindly"], '.toml; did you mean "friendly"?'),
     "an unknown profile": (["match", "--profile", "mls"], '.toml; did you mean "msl"?'),
