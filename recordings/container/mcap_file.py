@@ -159,8 +159,10 @@ def _from_summary(path: Path, file: IO[bytes]) -> McapFile | None:
     summary = summary_of(file, size) if summary_is_whole(file, size) else None
     if summary is None or summary.statistics is None:
         return None
-    if summary.statistics.message_count and not summary.chunk_indexes:
-        return None  # some writers write no chunks, or no index of them
+    counts, channels = summary.statistics.channel_message_counts, summary.channels
+    is_described = {*counts} <= {*channels} and {one.schema_id for one in channels.values()} <= {0, *summary.schemas}
+    if not is_described or (summary.statistics.message_count and not summary.chunk_indexes):
+        return None  # some writers write no chunks, no index of them, or no channels and schemas into the summary
     file.seek(0)
     try:
         reader = SeekingReader(file, record_size_limit=size)
@@ -168,9 +170,8 @@ def _from_summary(path: Path, file: IO[bytes]) -> McapFile | None:
         for record in reader.iter_metadata():
             mcap_file.add_metadata(record)
         mcap_file.attachments = {record.name: record.data for record in reader.iter_attachments()}
-        counts = summary.statistics.channel_message_counts
         chunks: dict[int, dict[int, list[int]]] = {}
-        for number, channel in summary.channels.items():
+        for number, channel in channels.items():
             extent = _extent(file, summary, number, chunks)
             schema = summary.schemas.get(channel.schema_id)
             mcap_file.channels[number] = ChannelRecord(

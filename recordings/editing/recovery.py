@@ -58,9 +58,10 @@ def _recover(path: Path, content: mmap.mmap) -> RecoverySummary:
     size = len(content)
     summary = summary_of(content, size) if summary_is_whole(content, size) else None
     if summary is not None and summary.statistics is not None and _is_intact(content):
+        derived = {number for number, channel in summary.channels.items() if is_derived(channel.metadata)}
         counts = summary.statistics.channel_message_counts
-        read = (count for number, count in counts.items() if not is_derived(summary.channels[number].metadata))
-        return RecoverySummary(path, repaired=False, messages=sum(read))
+        messages = sum(count for number, count in counts.items() if number not in derived)
+        return RecoverySummary(path, repaired=False, messages=messages)
     with written_whole(path) as draft:
         with draft.open("wb") as file:
             copy = _Copy(file)
