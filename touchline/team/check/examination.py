@@ -47,10 +47,18 @@ class Examination:
         return play_checked(self.subject, self.seconds, self.clock)
 
     @property
+    def matches(self) -> list[Played]:
+        """Both matches; the first alone if its decisions take so long that it was ended early.
+
+        Raises:
+            BreachError: the contract is broken in them.
+        """
+        return [self.played] if self.played.is_slow else [self.played, self.played_again]
+
+    @property
     def is_slow(self) -> bool:
-        """Whether the first match was ended because decisions take longer than their ticks."""
-        played = self.__dict__.get("played")
-        return played is not None and played.is_slow
+        """Whether a match was ended because decisions take longer than their ticks."""
+        return self.matches[-1].is_slow
 
 
 def check_build(examination: Examination) -> dict[str, float]:
@@ -63,8 +71,7 @@ def check_build(examination: Examination) -> dict[str, float]:
 
 def check_answers(examination: Examination) -> dict[str, float]:
     """Play two matches with equal seeds and new brains; the second only if the brains are fast enough."""
-    both = [examination.played] if examination.played.is_slow else [examination.played, examination.played_again]
-    return {"commands": sum(len(played.decisions) for played in both)}
+    return {"commands": sum(len(played.decisions) for played in examination.matches)}
 
 
 def check_time(examination: Examination) -> dict[str, float]:
@@ -74,8 +81,8 @@ def check_time(examination: Examination) -> dict[str, float]:
     not count either: a program is still starting.
     """
     tick = examination.subject.setup().time.tick * 1e3
-    if examination.played.is_slow:
-        mean = fmean(one.seconds for one in examination.played.decisions if one.tick > 0) * 1e3
+    if examination.is_slow:
+        mean = fmean(one.seconds for one in examination.matches[-1].decisions if one.tick > 0) * 1e3
         raise BreachError(f"a decision takes {mean:.1f} ms on average, and a tick lasts {tick:.0f} ms")
     runs = zip(examination.played.decisions, examination.played_again.decisions, strict=True)
     took = sorted(min(one.seconds, other.seconds) * 1e3 for one, other in runs if one.tick > 0)

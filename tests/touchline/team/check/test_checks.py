@@ -261,11 +261,12 @@ def test_a_brain_that_never_returns_or_ends_its_process_ends_the_check_with_its_
     assert brain == "Crashes" or f"{MODULE}.py, line" in sentence
 
 
+@pytest.mark.parametrize("quick", [0, 400], ids=["in both matches", "in the second"])
 def test_a_brain_much_slower_than_its_ticks_is_judged_slow_before_the_match_ends(
-    run_all: Callable[..., list[CheckResult]], monkeypatch: pytest.MonkeyPatch
+    run_all: Callable[..., list[CheckResult]], monkeypatch: pytest.MonkeyPatch, quick: int
 ) -> None:
     monkeypatch.setattr(play_module, "HANG_S", 1.0)
-    times = itertools.count(step=0.05)
+    times = itertools.accumulate(itertools.chain(itertools.repeat(0.02, quick), itertools.repeat(0.05)))
 
     class Clock50ms(SteppedClock):
         def now(self) -> float:
