@@ -91,15 +91,8 @@ def run(
     folder = out or Path("runs") / study.name
     plan = StudyPlan(study, cells_of(study, file.parent), home, folder)
     with session_of(study.name, jobs, dask, json=json) as session, session.interruptible():
-        result = run_study(
-            plan,
-            folder,
-            session.executor,
-            _match_sentence,
-            session.progress,
-            fresh=fresh,
-            is_remote=session.is_remote,
-        )
+        how = session.executor, _match_sentence, session.progress
+        result = run_study(plan, folder, *how, fresh=fresh, is_remote=session.is_remote)
     if session.is_interrupted:
         typer.echo(f"interrupted; the matches played so far are in {folder}: run it again to go on", err=True)
         raise KeyboardInterrupt

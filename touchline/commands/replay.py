@@ -123,14 +123,8 @@ def replay(
 
         on_the_bus: dict[str, object] = {"--fast": fast, "--loop": loop, "--paused": paused, "--stay": stay}
         on_the_bus |= {"--include": include, "--exclude": exclude, "--follow": follow, "--connect": connect}
-        on_the_bus |= {
-            "--match": match,
-            "--prefix": prefix,
-            "--web": web,
-            "--foxglove": foxglove,
-            "--rate": rate != 1.0,
-        }
-        on_the_bus |= {"--rename": rename, "a second FILE": files[1:]}
+        on_the_bus |= {"--match": match, "--prefix": prefix, "--web": web, "--foxglove": foxglove}
+        on_the_bus |= {"--rate": rate != 1.0, "--rename": rename, "a second FILE": files[1:]}
         robot, brain = parse_agent(agent, on_the_bus)
         debugged = AgentReplay(
             files[0], robot, brain, start, end, every_difference, pdb, brain_folder, live=live, out=out, json=json
