@@ -18,7 +18,7 @@ from schemas.messages.setup import Setup
 from schemas.natural_order import natural_order
 from schemas.topic import Topic
 from schemas.topics import APPLIED, TOPICS, WORLD
-from schemas.wire.message import VERSION, BadMessageError
+from schemas.wire.message import VERSION, BadMessageError, valid
 
 
 class RecordedMessage(NamedTuple):
@@ -132,8 +132,8 @@ class Recording:
         """
         lineup = Lineup.of(self.manifest.setup)
         for recorded in self.messages(APPLIED.key):
-            if changes_in(recorded.payload).robots is not None:
-                lineup = lineup.changed(recorded.message().robots or [])
+            if changes_in(recorded.payload).robots is not None and (applied := valid(recorded.message)) is not None:
+                lineup = lineup.changed(applied.robots or [])
         return lineup
 
     @property

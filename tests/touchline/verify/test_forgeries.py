@@ -205,3 +205,9 @@ def test_without_the_referee_the_last_line_names_what_was_not_checked(honest: Pa
     assert text.splitlines()[-1].startswith(
         "not checked: game/state, game/event, and clock, episode and off_field of world (--no-referee); "
     )
+
+
+def test_an_invalid_message_with_the_roster_ends_no_export(honest: Path, rewritten, tmp_path: Path) -> None:
+    forged = rewritten(honest, each("host/applied", lambda fields: fields.update(silent=5), at_tick(0)))
+    code, text = lines("export", forged, "--format", "csv", "--out", str(tmp_path / "csv"))
+    assert code == 0 and text.splitlines()[0].endswith("robots.csv")
