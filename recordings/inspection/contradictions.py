@@ -3,8 +3,6 @@
 from collections.abc import Iterator
 from typing import Any
 
-from pydantic_core import from_json
-
 from recordings.container.manifest import MANIFEST, EndReason, KeyCount, Result
 from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import Recording
@@ -16,6 +14,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameState
 from schemas.natural_order import natural_order
 from schemas.topics import APPLIED, STATE
+from schemas.wire.part import json_object
 
 _ENDS = (EndReason.FULL_TIME, EndReason.HOST_GONE, EndReason.STOPPED)
 """Ends of a recording whose result describes the last messages of the file."""
@@ -75,11 +74,7 @@ def _of_match_file(recording: Recording) -> Iterator[str]:
     text, attached = recording.mcap_file.metadata[MANIFEST].get("config"), recording.attachments.get("match.json")
     if text is None or attached is None:
         return
-    try:
-        ours, theirs = from_json(text), from_json(attached)
-    except ValueError:
-        yield "the match file in the manifest or the attached one cannot be read"
-        return
+    ours, theirs = json_object(text), json_object(attached)
     different = [name for name in {**ours, **theirs} if ours.get(name) != theirs.get(name)]
     if different:
         values = ", ".join(f"{name} is {ours.get(name)} and {theirs.get(name)}" for name in different[:3])

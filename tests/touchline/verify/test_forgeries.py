@@ -173,6 +173,10 @@ METADATA_FORGERIES = {
         {"metadata": other_seed},
         "the manifest and the attached match.json differ: seed is 6",
     ),
+    "the attached match file": (
+        {"attachment": lambda name, content: b'"x"' if name == "match.json" else content},
+        "the manifest and the attached match.json differ: ",
+    ),
     "the pitch in the setup": ({"metadata": other_pitch}, "the setup does not follow from the match file: pitch"),
 }
 
