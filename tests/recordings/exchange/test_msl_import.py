@@ -63,6 +63,7 @@ DEVIATIONS: dict[str, tuple[dict[str, Any], str]] = {
     "no velocity": ({"robots": [robot(velocity=None)]}, "robot without a velocity"),
     "a confidence of 1.7": ({"balls": [{"position": [0, 3, 0.2], "confidence": 1.7}]}, "confidence outside 0 to 1"),
     "two numbers for a ball": ({"balls": [{"position": [0.0, 3.0]}]}, "position of a ball has 2 numbers, not 3"),
+    "a ball beyond any height": ({"balls": [{"position": [0.0, 3.0, 1e308]}]}, "position of a ball is not finite, or"),
     "one ball, no list": ({"balls": {"position": [0.0, 3.0, 0.2], "confidence": 1}}, "ball without a velocity"),
 }
 
@@ -74,7 +75,7 @@ def test_what_deviates_is_read_all_the_same_and_counted(name: str, log: Log) -> 
     imported, recording = log.read()
     last = worlds(recording)[-1]
     assert (last.robots["cyan2"].x, last.robots["cyan2"].y) == pytest.approx((-2.0, -1.0))
-    assert (last.ball.x, last.ball.y) == pytest.approx((3.0, 0.0))
+    assert (last.ball.x, last.ball.y) == pytest.approx((3.0, 0.0)) and last.ball.z < 1.0
     assert imported.lost == []
     assert imported.teams[next(iter(imported.teams))].read == 3
     assert [what for what in found(imported) if what.startswith(says)] or not says

@@ -45,6 +45,8 @@ _OTHER_NAMES = {
 _BY_SPELLING = {key.lower(): key for key in KEYS} | _OTHER_NAMES
 _LONGEST_KEY = 40
 """Letters of a key that is looked up under other spellings."""
+_LARGEST = 1e15
+"""No quantity of a log, in its unit, is larger. Chosen here: its square and its hundredfold are still numbers."""
 _COMPONENTS = (("x",), ("y",), ("z", "theta", "heading", "phi", "w", "omega"))
 
 
@@ -75,7 +77,7 @@ def items_of(value: Any) -> list[Any]:
 
 
 def number(value: Any, what: str, findings: Findings) -> float | None:
-    """A finite number; None where the value is none."""
+    """A number; None where the value is none, or too large."""
     if isinstance(value, str):
         try:
             value = float(value)
@@ -89,8 +91,8 @@ def number(value: Any, what: str, findings: Findings) -> float | None:
         plain = float(value)
     except OverflowError:
         plain = math.inf
-    if not math.isfinite(plain):
-        findings.note(f"{what} is not finite")
+    if not abs(plain) < _LARGEST:
+        findings.note(f"{what} is not finite, or beyond any meaning")
         return None
     return plain
 
