@@ -77,11 +77,8 @@ SIGNALS: tuple[Signal, ...] = (
     Signal("RESTART", "n", EventKind.ACTION, "Restart"),
 )
 
-BY_NAME = {signal.name: signal for signal in SIGNALS} | {
-    "GAME_OVER": next(
-        signal for signal in SIGNALS if signal.name == "GAMEOVER"
-    ),  # the spelling in the league's document
-}
+BY_NAME = {signal.name: signal for signal in SIGNALS}
+BY_NAME["GAME_OVER"] = BY_NAME["GAMEOVER"]  # the spelling in the league's document
 BY_CHARACTER: dict[str, tuple[Signal, Side | None]] = {
     signal.character: (signal, Side.CYAN if signal.sided else None) for signal in SIGNALS if signal.character
 } | {signal.character.lower(): (signal, Side.MAGENTA) for signal in SIGNALS if signal.sided and signal.character}
