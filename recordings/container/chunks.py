@@ -40,7 +40,10 @@ def read_chunk(file: IO[bytes], at: int) -> bytes:
     Raises:
         BROKEN: the chunk is damaged.
     """
-    file.seek(at + RECORD_HEADER.size)
+    try:
+        file.seek(at + RECORD_HEADER.size)
+    except OSError:
+        raise ValueError(f"no file has the offset {at}") from None
     stream, size = get_chunk_data_stream(unpacked(Chunk.read(ReadDataStream(file))), validate_crc=True)
     return stream.read(size)
 

@@ -149,9 +149,8 @@ class KeyRecorder:
             known = sample.key, sample.encoding
             channel = self._channels[known] if known in self._channels else self._open_channel(sample)
             if channel is not None:
-                self._mcap.add_message(
-                    channel, now_ns, sample.payload, sample.sent_ns or now_ns, sample.sequence & 0xFFFF_FFFF
-                )
+                sent_ns, number = sample.sent_ns or now_ns, sample.sequence & 0xFFFF_FFFF
+                self._mcap.add_message(channel, now_ns, sample.payload, sent_ns, number)
                 self.messages += 1
                 if sample.writer:
                     self._numbers[sample.key, sample.writer].add(sample, now_ns)

@@ -71,10 +71,8 @@ def _stream_of_host(bus: Bus, patience: float) -> int:
     limit = bus.clock.now() + patience
     while bus.clock.now() < limit:
         try:
-            payload = bus.query(RECORD_BATCHES, RecordBatchesRequest(first=0, last=0), HOST_ANSWER_S).payload(
-                HOST_ANSWER_S
-            )
-            return RecordBatchesReply.decode(payload).stream
+            pending = bus.query(RECORD_BATCHES, RecordBatchesRequest(first=0, last=0), HOST_ANSWER_S)
+            return RecordBatchesReply.decode(pending.payload(HOST_ANSWER_S)).stream
         except (NoReplyError, BadMessageError):
             bus.clock.sleep_until(bus.clock.now() + HOST_ANSWER_S / 10)
     return 0

@@ -2,6 +2,7 @@
 
 import json
 import os
+import struct
 from pathlib import Path
 
 import pytest
@@ -59,6 +60,18 @@ def test_no_message_is_lost_where_chunks_are_out_of_order(tmp_path, order):
     assert touchline("filter", file, "--out", tmp_path / "copy.mcap").exit_code == 0
     copied = [(time - START_NS) / 1e6 for _, _, time in read(tmp_path / "copy.mcap")]
     assert (facts["messages"], facts["duration"], copied) == (6, 0.005, [0, 1, 2, 3, 4, 5])
+
+
+def test_a_place_that_no_file_has_is_damage(tmp_path):
+    file = write_mcap(tmp_path / "log.mcap", drive(), enable_crcs=False)
+    with file.open("rb") as content:
+        (chunk,) = make_reader(content).get_summary().chunk_indexes
+    index = struct.Struct("<QQQ")
+    times = chunk.message_start_time, chunk.message_end_time
+    before, after = (index.pack(*times, place) for place in (chunk.chunk_start_offset, 1 << 62))
+    file.write_bytes(file.read_bytes().replace(before, after))
+    result = touchline("diff", file, file)
+    assert result.exit_code == 2 and "damaged inside" in result.stderr
 
 
 @pytest.mark.parametrize("compression", CompressionType, ids=lambda one: one.name.lower())
