@@ -31,6 +31,8 @@ class Steps:
         self._match, self._clock, self._end = match, clock, end
         self.is_canceled = False
         """Somebody wants them to end."""
+        if ticks < 1:
+            raise RefusedError(Code.FAILED, f"steps is {ticks}; ask for 1 or more ticks")
         reply = match.pace(PaceOperation.STEP, ticks)
         if not reply.accepted:
             raise RefusedError(Code.FAILED, reply.reason)

@@ -297,7 +297,7 @@ def test_steps_that_are_canceled_pause_the_match_at_once(simulator: Simulator) -
     assert ends[0].code == Code.FAILED
 
 
-@pytest.mark.parametrize("ticks", [0, 10**10])
-def test_steps_of_no_possible_number_are_refused(simulator: Simulator, ticks: int) -> None:
-    with pytest.raises(RefusedError, match="ticks"):
+@pytest.mark.parametrize(("ticks", "said"), [(0, "steps is 0; ask for 1 or more"), (10**10, "ticks is 10000000000; ")])
+def test_steps_of_no_possible_number_are_refused(simulator: Simulator, ticks: int, said: str) -> None:
+    with pytest.raises(RefusedError, match=said):
         Steps(simulator.match, simulator.rig.clock, ticks, lambda _: None)
