@@ -29,11 +29,15 @@ class ClockKeeper:
         self._cyan_attacks = 1
         self._tick, self._now_ns = -1, 0
         self._missing: set[str] = set()
+        """Robots of the tick before that are not seen in this one."""
+        self._there: set[str] = set()
+        """Robots seen in this tick."""
         self._lock = threading.Lock()
 
     def follow(self, robots: Sequence[SightMessages]) -> None:
-        """The robots whose sights make a tick."""
+        """The robots whose sights make a tick, as far as nodes drive them and they take part."""
         self._robots = {one.robot: one for one in robots}
+        self._there = set(self._robots)
 
     def begin(self, sides: dict[str, Side]) -> None:
         """Another match begins, whose robots are of these sides."""
@@ -44,7 +48,8 @@ class ClockKeeper:
     def seen(self, robot: str, tick: int, now_ns: int) -> None:
         """What a robot perceives at this tick is published; also again, for a sight that was sent again.
 
-        Then the clock is published again, too, at most once in `REPLY_S` of wall time.
+        Then the host waits, and the clock is published again, at most once in `REPLY_S` of wall time, or in spite of
+        robots whose sights have not come: no node drives them any more, or somebody has removed them.
         """
         with self._lock:
             if tick < self._tick:
@@ -52,13 +57,14 @@ class ClockKeeper:
             if tick > self._tick:
                 if self._missing:
                     self._publish_clock()  # of a tick whose other sights were lost
-                self._tick, self._now_ns, self._missing = tick, now_ns, set(self._robots)
-            is_repeated = not self._missing
+                self._tick, self._now_ns, self._missing, self._there = tick, now_ns, self._there, set()
+            is_repeated, is_awaited = robot in self._there, robot in self._missing
+            self._there.add(robot)
             self._missing.discard(robot)
             if is_repeated:
                 if self._graph.clock.now() - self._published_at >= REPLY_S:
                     self._publish_clock()
-            elif not self._missing:
+            elif is_awaited and not self._missing:
                 self._publish_clock()
 
     def _publish_clock(self) -> None:

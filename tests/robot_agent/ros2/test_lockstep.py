@@ -43,8 +43,8 @@ class Node:
         self._commands.put(self._build.encode(message, types.TWIST_STAMPED))
 
 
-@pytest.fixture
-def played() -> Iterator[tuple[HostRig, Node]]:
+@pytest.fixture(params=[[], ["cyan1"]], ids=["alone", "beside a robot that no node drives"])
+def played(request: pytest.FixtureRequest) -> Iterator[tuple[HostRig, Node]]:
     """A small match at tick 0, whose `cyan2` the node drives."""
     rig = HostRig(MatchConfig.model_validate({"seed": 7, "teams": TEAMS, "patience": {"answer": 2.0}}))
     with (
@@ -56,7 +56,8 @@ def played() -> Iterator[tuple[HostRig, Node]]:
         bus = rig.seat()
         keeper = ClockKeeper(graph, bus)
         robot = RosRobot(graph, ROBOT, keeper, 1)
-        keeper.follow([robot.messages])
+        idle = [RosRobot(graph, name, keeper, 1) for name in request.param]
+        keeper.follow([one.messages for one in (robot, *idle)])
         node = Node(other)
         deadline = time.monotonic() + LIMIT_S
         while not (robot.is_driven and keeper.clock.is_read) and time.monotonic() < deadline:
