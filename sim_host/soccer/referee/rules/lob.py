@@ -12,6 +12,7 @@ Not judged: a ball that is touched, or that leaves the field, before it comes do
 import math
 
 from sim_host.soccer.referee.evidence.flight import Flight
+from sim_host.soccer.referee.evidence.zones import is_outside
 from sim_host.soccer.referee.game.decision import Decision
 from sim_host.soccer.referee.rules.foul import foul, is_called
 from sim_host.soccer.referee.situation import Situation
@@ -23,15 +24,18 @@ def judge(situation: Situation) -> Decision | None:
     flight = situation.state.evidence.flight
     if flight is None or not flight.just_landed or flight.landed is None:
         return None
-    numbers, roster = situation.match.book.scoring, situation.match.roster
+    match, robots = situation.match, situation.snapshot.robots
+    numbers, roster = match.book.scoring, match.roster
     side = roster.side_of(flight.robot)
     if flight.apex <= numbers.lob_height or flight.kicked_from[0] * situation.state.attack(side) >= 0:
         return None
-    gone = {index for index, _ in situation.state.evidence.outside}
-    mates = [index for index, its in enumerate(roster.sides) if its is side and index not in gone]
+    mates = [
+        index
+        for index, (its, robot) in enumerate(zip(roster.sides, robots, strict=True))
+        if its is side and not is_outside(match, index, robot.x, robot.y)
+    ]
     if len(mates) < numbers.lob_robots:
         return None
-    robots = situation.snapshot.robots
     away = [
         math.dist(flight.landed, (robots[index].x, robots[index].y))
         for index in mates

@@ -389,6 +389,14 @@ def test_a_lob_is_free_for_a_side_of_fewer_than_three(new_rig):
     assert EventKind.FOUL not in rig.kinds()
 
 
+def test_a_robot_that_is_back_on_the_field_is_a_teammate_for_a_lob(new_rig):
+    rig = new_rig().playing()
+    rig.robots["cyan4"] = (4.0, rig.pitch.touch_line + 1.0)
+    rig.play_on(5.0)
+    lob(rig, 0.9, mate_at=(4.0, 0.0))
+    assert EventKind.FOUL not in rig.kinds()
+
+
 def test_the_free_kick_for_a_lob_lies_on_the_halfway_line(new_rig):
     rig = new_rig().playing()
     lob(rig, 0.9)
