@@ -61,8 +61,9 @@ class MatchResult:
 
     @property
     def halves(self) -> list[Score]:
-        """The score at the end of each half."""
-        ends = [event for event in self.events if event.kind in (EventKind.HALF_TIME, EventKind.FULL_TIME)]
+        """The score at the end of each half; a shoot-out is none."""
+        ending = {EventKind.HALF_TIME} if self.state.shoot_out else {EventKind.HALF_TIME, EventKind.FULL_TIME}
+        ends = [event for event in self.events if event.kind in ending]
         return [event.score for event in ends if event.score is not None]
 
     def json(self) -> str:

@@ -70,6 +70,13 @@ def test_the_json_holds_everything_a_program_asks_for() -> None:
     }
 
 
+def test_a_shoot_out_is_no_half() -> None:
+    level = Score(cyan=1, magenta=1)
+    ends = [event(kind, "ends").replace(score=level) for kind in (*[EventKind.HALF_TIME] * 2, EventKind.FULL_TIME)]
+    state = result().state.replace(score=level, shoot_out=Score(cyan=3, magenta=2))
+    assert replace(result(), state=state, events=tuple(ends)).halves == [level, level]
+
+
 def test_a_match_without_recording_has_the_path_null() -> None:
     assert json.loads(result(recording=None).json())["recording"] is None
 
