@@ -84,6 +84,17 @@ def test_a_proposal_that_is_overruled_is_not_carried_out(mixed):
     assert mixed.state.score == Score() and mixed.state.phase is Phase.PLAY
 
 
+def test_a_stalled_ball_is_proposed_again_only_after_its_whole_time(mixed):
+    mixed.playing()
+    mixed.velocity = (0.0, 0.0, 0.0)
+    limit = mixed.book.stall.still_duration
+    for _ in range(2):
+        mixed.run(limit - 0.1)
+        assert mixed.state.proposal is None
+        mixed.run(0.2)
+        mixed.ask("overrule")
+
+
 def test_a_stop_by_people_settles_what_was_proposed(mixed):
     out(mixed)
     mixed.ask("free_kick", CYAN)
