@@ -51,7 +51,7 @@ _RECORDER_S = RECONNECT_S + GIVE_UP_S
 
 AFTER_THE_MATCH = (
     EndStep(0.0, _RECONNECTING, signal.SIGTERM),
-    EndStep(PROGRAM_ENDS_S, _RECONNECTING, signal.SIGKILL),
+    EndStep(PROGRAM_ENDS_S, _RECONNECTING, signal.SIGKILL, is_work=True),
     EndStep(_RECORDER_S, frozenset({ProcessKind.RECORDER}), signal.SIGTERM, is_work=True),
     EndStep(_RECORDER_S + PARTING_S, _ALL, signal.SIGKILL, is_work=True),
 )

@@ -340,6 +340,15 @@ def test_a_recorder_that_has_no_core_is_not_ended_after_the_match_before_it_has_
     assert recorder.ended == -signal.SIGKILL
 
 
+def test_a_page_that_has_no_core_is_not_killed_after_the_match_before_it_has_had_its_time() -> None:
+    stage = Stage(deaf_to=frozenset({signal.SIGTERM}), page=True)
+    stage.end("host", 0)
+    page = stage.cast["page"][-1]
+    page.has_core = False
+    stage.supervisor.end(AFTER_THE_MATCH, should_abort=lambda: stage.clock.now() > 20.0)
+    assert page.heard == [(0.0, signal.SIGTERM)]
+
+
 def test_at_once_the_host_hears_first_and_the_recorder_last() -> None:
     stage = Stage()
     stage.supervisor.end(AT_ONCE)
