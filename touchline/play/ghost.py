@@ -57,13 +57,15 @@ def teams_of(ghosts: Iterable[str]) -> dict[str, dict[str, Any]]:
     """The teams of a match file for ghosts such as `magenta=FILE`: side → team, with the recorded robots.
 
     Raises:
-        TouchlineError: not a side and a recording, or a recording without the match setup.
+        TouchlineError: not a side and a recording, a side twice, or a recording without the match setup.
     """
     teams: dict[str, dict[str, Any]] = {}
     for ghost in ghosts:
         word, _, file = ghost.partition("=")
         if word not in list(Side) or not file:
             raise TouchlineError(f'--ghost is "{ghost}"; write it as magenta=RECORDING.mcap')
+        if word in teams:
+            raise TouchlineError(f'--ghost is "{ghost}", and another one plays {word}; leave one of them out')
         team = open_recording(Path(file)).setup.teams[Side(word)]
         teams[word] = {
             "name": f"{team.name}, recorded",

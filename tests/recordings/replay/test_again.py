@@ -83,6 +83,11 @@ def test_an_invalid_ghost_is_reported(ghost, word):
         teams_of([ghost])
 
 
+def test_a_side_has_one_ghost(played):
+    with pytest.raises(TouchlineError, match="another one plays cyan"):
+        teams_of([f"cyan={played.path}"] * 2)
+
+
 def test_a_recording_with_other_ticks_is_no_ghost_here(played):
     with pytest.raises(TouchlineError, match="its ticks last"):
         check_ghosts(load_match(None, {"profile": "paper"}), [f"cyan={played.path}"])
