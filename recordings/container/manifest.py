@@ -113,7 +113,7 @@ class Result(Part):
     lost: int = 0
     missed_before_start: int = 0
     lost_batches: int = 0
-    """Batches of the host that could not be fetched any more, so far; `lost` counts the messages that were in
+    """Batches of the host that this recorder could not fetch any more, so far; `lost` counts the messages that were in
     them, on each key that has a later one."""
     unreadable: dict[str, int] = {}
     """Key → payloads that the recorder itself could not decode; they are recorded nevertheless."""

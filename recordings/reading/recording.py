@@ -2,6 +2,7 @@
 
 from collections import Counter, deque
 from collections.abc import Iterator
+from datetime import datetime
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -200,7 +201,8 @@ def open_recording(path: Path, *, whole: bool = False) -> Recording:
     try:
         manifest = from_metadata(Manifest, mcap_file.metadata[MANIFEST])
         result = from_metadata(Result, mcap_file.metadata[RESULT]) if RESULT in mcap_file.metadata else None
-    except TouchlineError as error:
+        datetime.fromisoformat(manifest.started)
+    except (TouchlineError, ValueError) as error:
         _check_version(path, mcap_file.metadata[MANIFEST].get("contract", ""))
         raise TouchlineError(f"{path}: its manifest or result is damaged: {error}") from None
     _check_version(path, manifest.contract)

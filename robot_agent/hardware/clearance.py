@@ -1,16 +1,19 @@
-"""The filter for clearance: the velocity nearest to the wanted one that keeps a robot off bodies and the boundary.
+"""The filter for clearance: the velocity nearest to the wanted one that keeps a robot off bodies, goals and boundary.
 
-Toward each body and each side of the floor the speed is limited to that from which the robot stops in time. These
-limits are half planes of velocities; the nearest velocity within all of them is the wanted one, lies on the edge of
-one, or on the corner of two. What is compared is the velocity that the robot can have two ticks later: on its way to a
-wanted velocity that is within the limits it may be beyond them, and its acceleration is spent on one change at a time.
+Toward each body, each wall of a goal and each side of the floor the speed is limited to that from which the robot stops
+in time. These limits are half planes of velocities; the nearest velocity within all of them is the wanted one, lies on
+the edge of one, or on the corner of two. What is compared is the velocity that the robot can have two ticks later: on
+its way to a wanted velocity that is within the limits it may be beyond them, and its acceleration is spent on one
+change at a time.
 """
 
 import math
+from collections.abc import Iterator
 from itertools import combinations
 from typing import NamedTuple
 
-from schemas.config.sections import DriveLimits
+from schemas.config.sections import DriveLimits, Pitch
+from schemas.config.task import GameName
 from schemas.frames import rotate, to_body
 from schemas.messages.command import Drive
 from schemas.messages.setup import Setup
@@ -50,6 +53,9 @@ def keep_clear(drive: Drive, sight: Sight, setup: Setup, clearance: float) -> Dr
         away = max(math.hypot(dx, dy), _SAME)
         gap = away - reach - body.radius - clearance
         limits.append(_Limit(dx / away, dy / away, _speed(gap / 2 if gap > 0.0 else gap, setup.drive)))
+    for x, y in _goal_walls(pitch, me.x, me.y) if setup.game is GameName.SOCCER else ():
+        away = max(math.hypot(x - me.x, y - me.y), _SAME)
+        limits.append(_Limit((x - me.x) / away, (y - me.y) / away, _speed(away - reach - clearance, setup.drive)))
     for x, y, place, half in ((1, 0, me.x, pitch.goal_line), (0, 1, me.y, pitch.touch_line)):
         for sign in (1, -1):
             gap = half + pitch.border - sign * place - reach - clearance
@@ -65,6 +71,16 @@ def keep_clear(drive: Drive, sight: Sight, setup: Setup, clearance: float) -> Dr
         return Drive(vx=_along(ahead, me.heading, limits), omega=drive.omega)
     vx, vy = to_body(*_nearest(wx, wy, limits), me.heading)
     return Drive(vx=vx, vy=vy, omega=drive.omega)
+
+
+def _goal_walls(pitch: Pitch, x: float, y: float) -> Iterator[tuple[float, float]]:
+    """The points nearest to (x, y) of the sides and the back of the nearer goal, posts included; m."""
+    inner, outer = pitch.goal_width / 2, pitch.goal_width / 2 + pitch.post
+    front, back = pitch.goal_line, pitch.goal_line + pitch.goal_depth
+    sign = math.copysign(1.0, x)
+    for low, high in ((inner, outer), (-outer, -inner)):
+        yield sign * min(back, max(front, abs(x))), min(high, max(low, y))
+    yield sign * back, min(outer, max(-outer, y))
 
 
 def _speed(gap: float, drive: DriveLimits) -> float:

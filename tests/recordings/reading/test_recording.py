@@ -144,6 +144,18 @@ def test_a_recording_of_a_other_major_version_is_refused_with_the_versions(recor
         open_recording(path)
 
 
+def test_a_manifest_that_began_at_no_time_is_damaged(recorded, tmp_path):
+    path = tmp_path / "forged.mcap"
+    metadata = open_mcap_file(recorded.path).metadata[MANIFEST]
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        writer.add_metadata("manifest", sealed({**metadata, "started": "yesterday"}))
+        writer.finish()
+    with pytest.raises(TouchlineError, match=r"damaged: Invalid isoformat string: 'yesterday'"):
+        open_recording(path)
+
+
 def test_what_a_later_version_added_to_the_manifest_is_passed_over(recorded, tmp_path):
     path = tmp_path / "newer.mcap"
     metadata = open_mcap_file(recorded.path).metadata[MANIFEST]

@@ -50,6 +50,14 @@ def test_along_a_wall_the_robot_goes_on_and_toward_it_stops():
     assert found.vx == approx(1.0, abs=0.15) and found.vy == approx(0.0, abs=1e-6)
 
 
+@pytest.mark.parametrize(("side", "drive"), [(1, Drive(vy=3.0)), (-1, Drive(vy=-3.0))])
+def test_a_keeper_on_its_line_stops_before_a_post(side, drive):
+    pitch = SETUP.pitch
+    places = [(-pitch.goal_line, side * y, 0.0) for y in (0.0, pitch.goal_width / 2 - REACH - 0.1)]
+    middle, near = (keep_clear(drive, sight([], place), SETUP, 0.1) for place in places)
+    assert middle is drive and near.vy == approx(0.0, abs=1e-6)
+
+
 def test_what_is_found_is_the_nearest_velocity_that_all_bodies_allow():
     """Against all velocities on a grid of 2 cm/s, by what a body each allows alone."""
     dice = random.Random(2)

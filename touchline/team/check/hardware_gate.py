@@ -22,9 +22,10 @@ from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel, models_of
 from schemas.config.scene import Scene, SceneBall, SceneRobot
 from schemas.errors import TouchlineError
+from sim_host.games import game_of_match
 from sim_host.match.simulation import TickResult
 from sim_host.staging.layout import obstacle_body
-from sim_host.staging.overlap import Disc, overlap
+from sim_host.staging.overlap import Body, Disc, goal_blocks, overlap
 from touchline.matches.engine.fresh_process import DiedProcessError, FreshProcesses
 from touchline.matches.engine.hang_watch import HangWatch
 from touchline.team.check.fresh_checks import died_sentence
@@ -135,7 +136,7 @@ def random_scene(config: MatchConfig, profile: Profile, seed: int) -> Scene:
 
 
 def _hull(name: str, x: float, y: float, model: RobotModel) -> Disc:
-    return Disc(name, x, y, model.body.reach, 0.0, math.inf)
+    return Disc(name, x, y, model.body.reach, 0.0, model.body.height)
 
 
 class _Watch:
@@ -143,7 +144,9 @@ class _Watch:
 
     def __init__(self, config: MatchConfig, profile: Profile, obstacles: list[ObstacleConfig]) -> None:
         self._models = models_of(config, profile)
-        self._obstacles = [obstacle_body(one, one.placement) for one in obstacles]
+        self._fixed: list[Body] = [obstacle_body(one, one.placement) for one in obstacles]
+        if game_of_match(config).arena.furniture.goals:
+            self._fixed += goal_blocks(profile.field)
         self._half = profile.field.length / 2 + profile.field.border, profile.field.width / 2 + profile.field.border
         self.clearance: float | None = None
         self.fault = ""
@@ -157,7 +160,7 @@ class _Watch:
         """
         robots: Mapping[str, Any] = result.world["robots"]
         hulls = [_hull(name, one["x"], one["y"], self._models[name]) for name, one in robots.items()]
-        for hull, other in chain(combinations(hulls, 2), product(hulls, self._obstacles)):
+        for hull, other in chain(combinations(hulls, 2), product(hulls, self._fixed)):
             self._note(result.tick, -overlap(hull, other), f"{hull.name} touches {other.name}")
         for hull in hulls:
             gap = min(half - abs(place) for half, place in zip(self._half, (hull.x, hull.y), strict=True))

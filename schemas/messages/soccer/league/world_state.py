@@ -84,7 +84,10 @@ def true_obstacles(side: Side, radius: float, sides: Mapping[str, Side], world: 
         for name, robot in world.robots.items()
         if robot.off_field is None and sides.get(name) is side.opponent
     ]
-    return opponents + [ObstacleSeen(body.x, body.y, 0.0, 0.0, body.radius) for body in world.obstacles.values()]
+    for body in world.obstacles.values():
+        vx, vy = (body.pushed.vx, body.pushed.vy) if body.pushed is not None else (0.0, 0.0)
+        opponents.append(ObstacleSeen(body.x, body.y, vx, vy, body.radius))
+    return opponents
 
 
 def _robot(robot: RobotSeen, attack: int) -> dict[str, Any]:

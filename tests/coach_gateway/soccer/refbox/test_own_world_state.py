@@ -13,7 +13,7 @@ from schemas.config.soccer.rule_book import load_rule_book
 from schemas.messages.radio import BallBelief, Belief, Motion, Radio
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameState
-from schemas.messages.world import BallTruth, ObstacleTruth, RobotTruth, World
+from schemas.messages.world import BallTruth, ObstacleTruth, PushedTruth, RobotTruth, World
 from schemas.side import Side
 from schemas.soccer.game import OffField, Phase, Point
 from support.messages import make_setup
@@ -140,6 +140,9 @@ def test_what_stands_on_the_pitch_is_an_obstacle(view: View) -> None:
     post = ObstacleTruth(x=4.0, y=0.0, heading=0.0, radius=0.3, height=1.0, shape="cylinder", size_x=0.6, size_y=0.6)
     seen = view(Side.CYAN, world=WORLD.replace(obstacles={"post": post}))
     assert {"position": [0.0, 4.0], "velocity": [0.0, 0.0], "radius": 0.3, "confidence": 1.0} in seen["obstacles"]
+    pushed = post.replace(pushed=PushedTruth(vx=0.5, vy=-0.25, omega=0.0, mass=5.0, friction=0.4))
+    seen = view(Side.CYAN, world=WORLD.replace(obstacles={"post": pushed}))
+    assert {"position": [0.0, 4.0], "velocity": [0.25, 0.5], "radius": 0.3, "confidence": 1.0} in seen["obstacles"]
 
 
 def test_a_world_state_has_eleven_robots_with_the_numbers_of_their_names(

@@ -1,7 +1,6 @@
 """The gate before hardware: scenes that a team plays alone, and why it is rejected."""
 
 import json
-import math
 import re
 import time
 
@@ -11,6 +10,7 @@ from typer.testing import CliRunner
 from runtime.process.clock import WallClock
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
+from schemas.frames import to_body
 from schemas.messages.command import Command, Drive
 from schemas.side import Side
 from touchline.commands.cli.command_line import app
@@ -32,10 +32,16 @@ class Ahead(Resting):
 
 
 class Gathering(Resting):
+    place = 0.0, 0.0
+
     def act(self, sight):
         me = sight.self
-        c, s = math.cos(me.heading), math.sin(me.heading)
-        return Command(answers_tick=sight.tick, drive=Drive(vx=-c * me.x - s * me.y, vy=s * me.x - c * me.y))
+        vx, vy = to_body(self.place[0] - me.x, self.place[1] - me.y, me.heading)
+        return Command(answers_tick=sight.tick, drive=Drive(vx=vx, vy=vy))
+
+
+class AtThePost(Gathering):
+    place = 11.1, -1.2
 
 
 class Slow(Resting):
@@ -93,6 +99,13 @@ def test_an_obstacle_of_the_match_file_counts_and_is_named():
     post = {"name": "post", "shape": "cylinder", "place": [0.0, 0.0], "radius": 1.0, "height": 1.0}
     result = passed("Gathering", seconds=20.0, obstacles=[post], **{"teams.cyan.size": 1})
     assert re.fullmatch(r"tick \d+: cyan1 touches post", result.rejected)
+
+
+def test_a_goal_counts_and_the_filter_keeps_off_it():
+    alone = {"seconds": 20.0, "teams.cyan.size": 1}
+    assert re.fullmatch(r"tick \d+: cyan1 touches a goal", passed("AtThePost", **alone).rejected)
+    kept_off = passed("AtThePost", clearance=0.15, **alone)
+    assert kept_off.rejected == "" and 0.05 < kept_off.clearance < 0.3
 
 
 def test_a_robot_beside_a_wall_does_not_touch_it():
