@@ -8,6 +8,7 @@ import json
 import logging
 import os
 import sys
+from contextlib import suppress
 from datetime import UTC, datetime
 from enum import StrEnum
 from typing import Any, TextIO
@@ -67,7 +68,7 @@ def configure_log(
 def log_line(
     message: str, level: Level = Level.INFO, stream: TextIO | None = None, *, prefix: str = "", **fields: Any
 ) -> None:
-    """Write a line to stderr, or to `stream`, at once.
+    """Write a line to stderr, or to `stream`, at once; on a full disk it is lost, and the process goes on.
 
     Args:
         message: the line.
@@ -82,8 +83,9 @@ def log_line(
         if _LOG.format is LogFormat.JSON
         else f"{prefix}{message}"
     )
-    out.write(line.rstrip("\n") + "\n")
-    out.flush()
+    with suppress(OSError):
+        out.write(line.rstrip("\n") + "\n")
+        out.flush()
 
 
 def log_note(subject: str, text: str, **fields: Any) -> None:

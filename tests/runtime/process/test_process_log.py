@@ -31,6 +31,11 @@ def test_text_is_the_line_and_nothing_else(capsys: pytest.CaptureFixture[str]) -
     assert capsys.readouterr().err == "the host has been gone for 10 s; leaving\n"
 
 
+def test_a_line_on_a_full_disk_is_lost_and_ends_nothing() -> None:
+    with io.TextIOWrapper(io.FileIO("/dev/full", "w"), write_through=True) as full:
+        log_line("sense takes longer than its deadline", stream=full)
+
+
 def test_json_is_one_object_a_line_with_time_process_level_robot_message_and_fields(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
