@@ -15,6 +15,7 @@ from robot_agent.loading.build_check import BuildCheckSettings
 from robot_agent.process.stdio.command_line import check_command_line
 from robot_agent.process.timing import HANG_S
 from runtime.process.clock import WallClock
+from runtime.process.ending import ending
 from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
@@ -23,7 +24,6 @@ from touchline.launch.confinement.robot_confinement import Confinement, team_con
 from touchline.launch.processes.child_process import ChildProcess
 from touchline.launch.processes.process_table import ProcessKind, library_process
 from touchline.launch.processes.robot_process import ROBOT_ENVIRONMENT
-from touchline.launch.processes.supervisor import ending
 from touchline.launch.run_folder import RUNS
 from touchline.launch.team_error import TeamError
 from touchline.timing import STATUS_S

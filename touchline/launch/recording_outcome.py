@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from runtime.bus.outcome_file import read_outcome
+from runtime.process.ending import ending
 from schemas.errors import TouchlineError
 from schemas.topic import Party
 from schemas.topics import recorded_topic
 from touchline.launch.processes.programs import MatchPlan
-from touchline.launch.processes.supervisor import ending
 
 
 @dataclass(frozen=True, slots=True)

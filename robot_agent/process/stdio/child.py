@@ -16,6 +16,7 @@ from contextlib import suppress
 
 from robot_agent.process.stdio.lines import Line, LineSplitter
 from robot_agent.process.timing import PROGRAM_ENDS_S
+from runtime.process.ending import ending
 from runtime.process.leash import leashed
 from schemas.messages.command import Command
 
@@ -82,13 +83,9 @@ class Child:
         """How the program ended whose output has ended: `ended with status 3`."""
         select.poll().poll(PROGRAM_ENDS_S * 1e3)
         try:
-            status = self._popen.wait(PROGRAM_ENDS_S)
+            return ending(self._popen.wait(PROGRAM_ENDS_S))
         except subprocess.TimeoutExpired:
             return "closed its standard output"
-        if status < 0:
-            with suppress(ValueError):  # a real-time signal has no name
-                return f"was ended by {signal.Signals(-status).name}"
-        return f"ended with status {status}"
 
     def close(self) -> None:
         """End the program: its input ends; if that does not suffice, SIGTERM, then SIGKILL."""

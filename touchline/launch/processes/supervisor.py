@@ -11,6 +11,7 @@ from pathlib import Path
 
 from robot_agent.process.settings import FIRST_SIGHT_FAILED
 from runtime.process.clock import Clock
+from runtime.process.ending import ending
 from runtime.process.settings_file import WRONG
 from runtime.process.timing import GIVE_UP_S, PARTING_S, POLL_S, RECONNECT_S, REPLY_S
 from schemas.errors import TouchlineError
@@ -248,10 +249,3 @@ def _failed_at_first_sight(process: Process, status: int | None) -> bool:
 def _cannot_begin(process: Process, status: int) -> bool:
     """Whether a robot cannot begin: its host refuses it, or its brain cannot be built."""
     return process.settings is not None and process.kind is ProcessKind.AGENT and status == WRONG
-
-
-def ending(status: int) -> str:
-    """How a process with this exit status ended."""
-    if status < 0:
-        return f"was ended by {signal.Signals(-status).name}"
-    return f"ended with status {status}"

@@ -18,7 +18,7 @@ from typing import Any
 from pebble import ProcessExpired, concurrent
 
 from robot_agent.loading.brain_folders import added_folders, remove_folders
-from touchline.launch.processes.supervisor import ending
+from runtime.process.ending import ending
 from touchline.matches.engine.hang_watch import Note, read_note
 from touchline.timing import PROGRAM_ENDS_S
 

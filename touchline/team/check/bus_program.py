@@ -12,6 +12,7 @@ from runtime.bus.contract import PresenceKind
 from runtime.bus.endpoint import with_free_port
 from runtime.bus.zenoh.bus import open_host
 from runtime.process.clock import WallClock
+from runtime.process.ending import ending
 from runtime.process.leash import leashed
 from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaimReply
@@ -19,7 +20,6 @@ from schemas.messages.command import Command
 from schemas.messages.sight import Sight
 from schemas.topics import COMMAND, ROBOT_CLAIM, SETUP, SIGHT
 from schemas.wire.message import BadMessageError
-from touchline.launch.processes.supervisor import ending
 from touchline.timing import POLL_S, PROGRAM_ENDS_S
 
 

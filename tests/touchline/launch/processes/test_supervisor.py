@@ -109,14 +109,15 @@ def test_an_agent_that_was_ended_for_exceeding_a_limit_is_reported_with_the_limi
     )
 
 
-def test_an_agent_that_keeps_crashing_is_launched_again_three_times_and_then_left() -> None:
+@pytest.mark.parametrize(("number", "name"), [(signal.SIGSEGV, "SIGSEGV"), (signal.SIGRTMIN + 6, "signal 40")])
+def test_an_agent_that_keeps_crashing_is_launched_again_three_times_and_then_left(number: int, name: str) -> None:
     stage = Stage()
     sentences = []
     for _ in range(6):
-        stage.end("cyan1", -signal.SIGSEGV)
+        stage.end("cyan1", -number)
         sentences += [notice.sentence for notice in stage.supervisor.check()]
     assert len(stage.cast["cyan1"]) == 4
-    assert sentences[-1] == "cyan1 was ended by SIGSEGV; not started again"
+    assert sentences[-1] == f"cyan1 was ended by {name}; not started again"
     assert len(sentences) == 4
     assert len(stage.cast["magenta1"]) == 1
     assert stage.supervisor.host_status is None
