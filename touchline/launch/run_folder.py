@@ -91,11 +91,12 @@ def _why_not_writable(out: Path) -> str:
 
 def _new_folder(stem: str) -> Path:
     """A new folder: two matches of the same second get different folders."""
+    RUNS.mkdir(exist_ok=True)
     number = 1
     while True:
         folder = RUNS / (stem if number == 1 else f"{stem}-{number}")
         try:
-            folder.mkdir(parents=True)
+            folder.mkdir()
         except FileExistsError:
             number += 1
         else:

@@ -169,6 +169,15 @@ def test_two_runs_of_one_second_get_different_folders(tmp_path: Path, monkeypatc
     assert first.recording == first.folder / "match.mcap"
 
 
+def test_a_link_to_a_disk_that_is_not_there_is_no_folder_for_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("runs").symlink_to("/nonexistent/disk")
+    with pytest.raises(TouchlineError, match="runs: File exists; a match writes its logs under ./runs"):
+        prepare_run(load_match(None), None, None, SteppedClock())
+
+
 def test_a_recording_goes_into_a_folder_that_exists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("finals").mkdir()
