@@ -2,6 +2,7 @@
 
 import signal
 import sys
+from io import TextIOWrapper
 from typing import Annotated
 
 import typer
@@ -38,6 +39,9 @@ def options(
 
 def main() -> None:
     """Run the command line; exits with its status, after Ctrl-C as a process that SIGINT ended."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")  # ? for what the terminal's encoding has not
     try:
         app(prog_name="touchline")
     except KeyboardInterrupt:

@@ -1,5 +1,6 @@
 """The entry of the command line: what it does before any other module is imported."""
 
+import io
 import os
 import signal
 import subprocess
@@ -9,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import touchline
+from touchline.commands.cli import command_line
 from touchline.commands.cli.script import put_current_directory_last
 
 LIBRARY = str(Path(touchline.__file__).resolve().parents[1])
@@ -44,6 +46,15 @@ def test_a_checkout_that_is_the_current_directory_stays_first_and_later_processe
         put_current_directory_last(path)
         assert path == [LIBRARY, "/lib/python"]
         assert os.environ["PYTHONPATH"] == f"{LIBRARY}:/lib/a"
+
+
+def test_what_the_encoding_of_a_terminal_has_not_is_printed_as_a_question_mark(monkeypatch: pytest.MonkeyPatch) -> None:
+    with io.TextIOWrapper(io.BytesIO(), encoding="latin-1", write_through=True) as out:
+        monkeypatch.setattr(sys, "stdout", out)
+        monkeypatch.setattr(command_line, "app", lambda prog_name: out.write(f"{prog_name}: München – Porto"))
+        command_line.main()
+        monkeypatch.undo()
+        assert out.buffer.getvalue().decode("latin-1") == "touchline: München ? Porto"
 
 
 @pytest.mark.processes
