@@ -2,6 +2,7 @@
 
 import math
 
+from schemas.config.ramp import Ramp, TurnRamp
 from schemas.config.robot_model import RobotModel
 from schemas.messages.command import Drive, Kick, KickMode
 
@@ -32,14 +33,9 @@ def within_limits(demand: Drive, model: RobotModel) -> Drive:
 
 def toward(now: Drive, demand: Drive, model: RobotModel, dt: float) -> Drive:
     """The demand, or as much of the way to it as the accelerations of the drive allow in `dt` s."""
-    drive = model.drive
-    dx, dy = demand.vx - now.vx, demand.vy - now.vy
-    slows = math.hypot(demand.vx, demand.vy) < math.hypot(now.vx, now.vy)
-    most = (drive.deceleration if slows else drive.acceleration) * dt
-    share = 1.0 if math.hypot(dx, dy) <= most else most / math.hypot(dx, dy)
-    most_turn = drive.turn_acceleration * dt
-    turn = max(-most_turn, min(most_turn, demand.omega - now.omega))
-    return Drive(vx=now.vx + share * dx, vy=now.vy + share * dy, omega=now.omega + turn)
+    ((vx, vy),) = Ramp(model.drive, dt, 1).toward((now.vx, now.vy), (demand.vx, demand.vy))
+    (omega,) = TurnRamp(model.drive, dt, 1).toward(now.omega, demand.omega)
+    return Drive(vx=vx, vy=vy, omega=omega)
 
 
 def kick_within_limits(kick: Kick, model: RobotModel) -> Kick:

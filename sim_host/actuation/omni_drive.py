@@ -10,12 +10,12 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from schemas.config.ramp import Ramp, TurnRamp
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import TimeSteps
 from schemas.frames import rotate, to_body
 from schemas.messages.command import Drive
 from sim_host.actuation.drive_model import Bodies, DriveModel, Plan
-from sim_host.actuation.ramp import Ramp, TurnRamp
 from sim_host.actuation.stuck_detector import MIN_SPEED, MIN_TURN_RATE, SLOW_SHARE
 from sim_host.actuation.wheels import Floats, WheelSets
 from sim_host.physics.vectors import FieldTwist

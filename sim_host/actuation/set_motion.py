@@ -8,11 +8,11 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import Generic, NamedTuple, TypeVar
 
+from schemas.config.ramp import Planar, Ramp, TurnRamp
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import TimeSteps
 from schemas.messages.command import Drive
 from sim_host.actuation.drive_model import Bodies, DriveModel, Plan
-from sim_host.actuation.ramp import Planar, Ramp, TurnRamp
 from sim_host.actuation.stuck_detector import MIN_SPEED, MIN_TURN_RATE, SLOW_SHARE
 from sim_host.physics.vectors import FieldTwist
 from sim_host.snapshot import RobotState, RobotStates

@@ -9,13 +9,13 @@ than its grip, in every physics step.
 import math
 from collections.abc import Iterator, Sequence
 
+from schemas.config.ramp import Planar
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import TimeSteps
 from schemas.frames import rotate
 from schemas.messages.command import Drive
 from sim_host.actuation.drive_model import Bodies, Plan
 from sim_host.actuation.grip import Grip
-from sim_host.actuation.ramp import Planar
 from sim_host.actuation.set_motion import SetMotion, SetMotionDrive, slip_of
 from sim_host.physics.vectors import FieldTwist
 from sim_host.snapshot import RobotState, RobotStates

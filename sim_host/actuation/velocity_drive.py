@@ -1,10 +1,10 @@
 """The drive model `velocity`: the robot moves with the planned velocity, within the limits of its drive."""
 
+from schemas.config.ramp import Planar
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import TimeSteps
 from schemas.frames import rotate, to_body
 from schemas.messages.command import Drive
-from sim_host.actuation.ramp import Planar
 from sim_host.actuation.set_motion import SetMotion, SetMotionDrive, slip_of
 from sim_host.physics.vectors import FieldTwist
 from sim_host.snapshot import RobotState

@@ -8,9 +8,9 @@ from pytest import approx
 
 from robot_agent.hardware.limits import toward, within_limits
 from schemas.config.profile import load_profile
+from schemas.config.ramp import Ramp, TurnRamp
 from schemas.config.robot_model import RobotModel
 from schemas.messages.command import Drive
-from sim_host.actuation.ramp import Ramp, TurnRamp
 from sim_host.actuation.wheels import WheelSets
 
 DEMANDS = [(0.3, 0.0, 0.0), (3.0, 3.0, 9.0), (-5.0, 1.0, -20.0), (0.1, 0.2, 40.0), (8.0, -6.0, 2.0)]
@@ -68,3 +68,14 @@ def test_a_demand_loses_speed_by_the_deceleration_and_turns_by_its_own_limit():
     assert math.hypot(after.vx, after.vy) == approx(2.0 - 0.1 * one.drive.deceleration)
     assert after.omega == approx(3.0 - 0.1 * one.drive.turn_acceleration)
     assert toward(now, Drive(), one, 0.0) == now and toward(now, now, one, 0.0) == now
+
+
+@pytest.mark.parametrize("profile", ["msl", "omni", "paper"])
+@pytest.mark.parametrize(
+    ("now", "demand"), [((2.0, 0.0), (-3.0, 0.0)), ((1.0, 0.0), (0.0, 0.9)), ((0.3, 1.0), (2.0, -1.0))]
+)
+def test_a_robot_that_is_told_to_reverse_brakes_as_hard_as_in_a_match(now, demand, profile):
+    one = model(profile)
+    (planned,) = Ramp(one.drive, 0.02, 1).toward(now, demand)
+    after = toward(Drive(vx=now[0], vy=now[1]), Drive(vx=demand[0], vy=demand[1]), one, 0.02)
+    assert (after.vx, after.vy) == approx(planned)

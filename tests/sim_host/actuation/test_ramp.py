@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from pytest import approx
 
 from schemas.config.profile import load_profile
+from schemas.config.ramp import Ramp, TurnRamp
 from schemas.config.robot_model import RobotModel
 from schemas.messages.command import Drive
 from sim_host.actuation.drive_model import Bodies, DriveModel
-from sim_host.actuation.ramp import Ramp, TurnRamp
 from sim_host.actuation.traction_drive import TractionDrive
 from sim_host.actuation.velocity_drive import VelocityDrive
 from sim_host.snapshot import RobotState, RobotStates

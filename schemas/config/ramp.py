@@ -15,10 +15,10 @@ Planar = tuple[float, float]
 
 
 class Ramp:
-    """The limits of a velocity, and its way toward a demand over the physics steps of one tick."""
+    """The limits of a velocity, and its way toward a demand over the steps of one tick."""
 
     def __init__(self, drive: DriveLimits, step: float, steps: int) -> None:
-        """`step` is the physics step in s."""
+        """`step` is the length of a step in s."""
         self._top = drive.max_speed
         elapsed = [step * number for number in range(1, steps + 1)]
         self._reach = [(drive.acceleration * time, drive.deceleration * time) for time in elapsed]
@@ -49,10 +49,10 @@ class Ramp:
 
 
 class TurnRamp:
-    """The limits of a turn rate, and its way toward a demand over the physics steps of one tick."""
+    """The limits of a turn rate, and its way toward a demand over the steps of one tick."""
 
     def __init__(self, drive: DriveLimits, step: float, steps: int) -> None:
-        """`step` is the physics step in s."""
+        """`step` is the length of a step in s."""
         self._top = drive.max_turn_rate
         self._reach = [drive.turn_acceleration * step * number for number in range(1, steps + 1)]
         """Per step: by how much the turn rate has changed at most since the tick began, in rad/s."""
