@@ -1,1 +1,1 @@
-"""The typed bus: one contract, one implementation over Zenoh, one within a process."""
+"""The typed bus: one contract, one implementation over Zenoh; endpoints, and how a host is found."""

@@ -1,1 +1,1 @@
-"""Services of the operating system: clocks, scheduling policy, and work in idle time."""
+"""What every process needs: clocks, settings, log, whole files, scheduling, and an end with its launcher."""

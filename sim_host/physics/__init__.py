@@ -1,1 +1,1 @@
-"""The physics engine, its bodies, collisions, and the motion of a free ball; the only package that imports PyBullet."""
+"""The physics engine, its bodies, collisions, and the bounce of a ball; the only package that imports PyBullet."""
