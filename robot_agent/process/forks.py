@@ -37,7 +37,8 @@ class ForkRequest(TypedDict):
 class ForkReply(TypedDict):
     """A process that has been forked, or has ended."""
 
-    pid: int
+    pid: int | None
+    """None if none could be forked."""
     status: int | None
     """Exit status, negative for a signal; None when it has been forked."""
 
@@ -57,7 +58,11 @@ def serve() -> ForkRequest | None:
                 line = sys.stdin.readline()
                 if not line:
                     return None
-                pid = os.fork()
+                try:
+                    pid = os.fork()
+                except OSError:  # too many processes; those that run go on
+                    _reply(None, None)
+                    continue
                 if pid == 0:
                     end_with(server)
                     request: ForkRequest = json.loads(line)
@@ -89,7 +94,7 @@ def become(request: ForkRequest) -> None:
     runpy.run_module(request["module"], run_name="__main__", alter_sys=True)
 
 
-def _reply(pid: int, status: int | None) -> None:
+def _reply(pid: int | None, status: int | None) -> None:
     sys.stdout.write(json.dumps(ForkReply(pid=pid, status=status)) + "\n")
     sys.stdout.flush()
 

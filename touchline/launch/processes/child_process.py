@@ -38,7 +38,7 @@ class ChildProcess:
         """Launch the process, which appends its output to the log of its name in `folder`.
 
         Raises:
-            TouchlineError: its settings or its folder cannot be written.
+            TouchlineError: its settings or its folder cannot be written, or there are too many processes.
         """
         self.process, self.log = process, folder / f"{process.name}.log"
         self._status: int | None = None
@@ -51,7 +51,8 @@ class ChildProcess:
         if pid is not None:
             self.pid, self._poll = pid, partial(ROBOTS.status, pid)
         else:
-            popen = _popen(process, self.log)
+            with os_errors(process.name, "end other programs, or allow this user more processes"):
+                popen = _popen(process, self.log)
             self.pid, self._poll = popen.pid, popen.poll
 
     def wait(self, seconds: float, clock: Clock) -> int | None:

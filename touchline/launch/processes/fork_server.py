@@ -7,6 +7,7 @@ import json
 import signal
 import subprocess
 import sys
+from contextlib import suppress
 from queue import SimpleQueue
 from threading import Thread
 from typing import IO, TYPE_CHECKING
@@ -25,15 +26,18 @@ class ForkServer:
 
     def __init__(self) -> None:
         self._server: subprocess.Popen[str] | None = None
+        self._is_serving = False
         self._forked: SimpleQueue[int | None] = SimpleQueue()
         self._statuses: dict[int, int] = {}
 
     def prepare(self) -> None:
         """Start the process, which imports what robots need while this one goes on."""
+        if self._is_serving:
+            return
         if self._server is not None:
-            if self._server.poll() is None:
-                return
-            self._requests.close()
+            self._server.wait()
+            with suppress(BrokenPipeError):  # of a request that it did not read
+                self._requests.close()
         self._forked = SimpleQueue()
         self._server = subprocess.Popen(
             [*leashed({}), *PYTHON, "-m", "robot_agent.process.forks"],
@@ -43,6 +47,7 @@ class ForkServer:
             process_group=0,
             text=True,
         )
+        self._is_serving = True
         Thread(target=self._follow, args=(self._server.stdout, self._forked), daemon=True).start()
 
     def fork(self, request: "ForkRequest") -> int | None:
@@ -73,7 +78,9 @@ class ForkServer:
             for line in replies:
                 reply: ForkReply = json.loads(line)
                 pid, status = reply["pid"], reply["status"]
-                if status is None:
+                if pid is None:
+                    forked.put(None)
+                elif status is None:
                     self._statuses.pop(pid, None)  # of an earlier process with this id
                     running.add(pid)
                     forked.put(pid)
@@ -81,6 +88,7 @@ class ForkServer:
                     running.discard(pid)
                     self._statuses[pid] = status
         self._statuses.update(dict.fromkeys(running, -signal.SIGKILL))
+        self._is_serving = False  # the process may go on for a moment, and reads no request
         forked.put(None)
 
 
