@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from coach_gateway.match.team_names import printable
 from coach_gateway.ports import inheritance_of
 from runtime.process.clock import Clock
 from runtime.process.idle_time import core_wait_of
@@ -93,13 +94,13 @@ class ChildProcess:
         return limits.breach(limit) if limit is not None and limits is not None else ""
 
     def last_lines(self, count: int = 5) -> list[str]:
-        """The last lines of this process's output, without empty lines and without output of an earlier process."""
+        """The last lines of this process's output: none empty, none of an earlier process, no control characters."""
         with self.log.open("rb") as log:
             size = self.log.stat().st_size
             start = self._log_start if self._log_start <= size else 0  # the log was cut meanwhile
             log.seek(max(start, size - _TAIL_BYTES))
             text = log.read().decode("utf-8", "replace")
-        lines = [part for line in text.splitlines() for part in message_of(line).splitlines()]
+        lines = [printable(part) for line in text.splitlines() for part in message_of(line).splitlines()]
         return [line for line in lines if line.strip()][-count:]
 
     def _signal_within(self, number: signal.Signals) -> None:

@@ -4,6 +4,7 @@ import re
 from collections import Counter, defaultdict
 from pathlib import Path
 
+from coach_gateway.match.team_names import printable
 from runtime.process.process_log import NOTE, message_of
 from touchline.launch.processes.log_limit import LogLimit
 from touchline.launch.processes.supervisor import Notice
@@ -94,4 +95,4 @@ class LogNotes:
         if not message.startswith(NOTE) or subject in self._subjects:
             return ""
         self._subjects.add(subject)
-        return message.removeprefix(NOTE)
+        return printable(message.removeprefix(NOTE))

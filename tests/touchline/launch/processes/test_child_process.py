@@ -131,6 +131,12 @@ def test_who_waits_for_a_robot_sleeps_until_the_time_is_over(launch: Launch) -> 
     assert clock.now() == pytest.approx(0.5, abs=0.1)
 
 
+def test_what_a_terminal_would_obey_is_not_shown(launch: Launch) -> None:
+    launched = launch(python(r"print('\x1b]0;owned\x07\x1b[2Jgone')"))
+    assert end_of(launched) == 0
+    assert launched.last_lines() == ["�]0;owned��[2Jgone"]
+
+
 def test_of_a_log_in_json_the_messages_are_shown(launch: Launch) -> None:
     line = '{"time": "2026-01-01T00:00:00.000Z", "level": "error", "message": "act failed\\nkick: no"}'
     launched = launch(python(f"print('a print of the brain\\n\\n' {line!r})".replace("' '", "' + '")))

@@ -16,8 +16,8 @@ BUG = "(my_team.py, line 7): KeyError: 'plan'"
 def test_each_note_is_found_once_when_its_line_is_whole(tmp_path):
     log, notes = tmp_path / "cyan1.log", LogNotes()
     assert notes.update(log) == []
-    log.write_text(f"printed by the brain\n{NOTE}one: first\n{NOTE}two: sec")
-    assert notes.update(log) == ["one: first"]
+    log.write_text(f"printed by the brain\n{NOTE}one: first\x1b[2J\n{NOTE}two: sec")
+    assert notes.update(log) == ["one: first�[2J"]
     with log.open("a") as file:
         file.write("ond\nmore\n")
     assert notes.update(log) == ["two: second"]
