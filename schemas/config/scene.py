@@ -20,8 +20,9 @@ from schemas.side import Side
 from schemas.soccer.game import RESTARTS, SIDED, Phase
 from schemas.wire.message import Name
 
-Speed = Annotated[float, Field(ge=-40, le=40)]
-"""m/s or rad/s."""
+MAX_SPEED, MAX_HEIGHT = 40.0, 10.0
+"""m/s or rad/s of a body that is placed, and m above the ground of a ball."""
+Speed = Annotated[float, Field(ge=-MAX_SPEED, le=MAX_SPEED)]
 PHASES = frozenset({Phase.PRE_GAME, Phase.STOPPED, Phase.PLAY}) | RESTARTS
 """The phases in which a scene may begin."""
 REMEDIES = {
@@ -72,7 +73,7 @@ class SceneBall(ConfigModel):
     """x of the centre in the field frame, in m."""
     y: float = 0.0
     """y of the centre in the field frame, in m."""
-    z: Annotated[float, Field(ge=0, le=10)] | None = None
+    z: Annotated[float, Field(ge=0, le=MAX_HEIGHT)] | None = None
     """Height of the centre above the ground, in m; None for a ball on the ground."""
     vx: Speed = 0.0
     """Velocity along x of the field frame, in m/s."""

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from schemas.config.roster import Placement
-from schemas.config.scene import Scene, load_scene
+from schemas.config.scene import MAX_HEIGHT, MAX_SPEED, Scene, load_scene
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.scene import SceneOperation, SceneRequest
 from sim_host.snapshot import BALL
@@ -75,6 +75,10 @@ def _place(
             raise TouchlineError(f"{one.body} is neither a robot nor {other}; {did_you_mean(one.body, movable)}")
         if one.body != BALL and (one.z is not None or one.vz):
             raise TouchlineError(f"{one.body} stands on the ground; z and vz are for the ball")
+        if max(map(abs, (one.vx, one.vy, one.vz, one.omega))) > MAX_SPEED or (one.z or 0.0) > MAX_HEIGHT:
+            raise TouchlineError(
+                f"{one.body}: at most {MAX_SPEED:g} m/s or rad/s in each direction, and {MAX_HEIGHT:g} m high"
+            )
         if one.body == BALL and one.z is not None and one.z < specs.ball.radius:
             raise TouchlineError(f"the ball's centre would be {one.z:g} m high; its radius is {specs.ball.radius:g} m")
     after = with_placements(layout, request.place)

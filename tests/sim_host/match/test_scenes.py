@@ -297,6 +297,8 @@ REFUSED: dict[str, tuple[str, dict[str, Any], str]] = {
     "a robot on another": ("place", {"place": [Placement(body="cyan2", x=-10.5, y=0.1)]}, "inside cyan1"),
     "somebody who is not there": ("place", {"place": [Placement(body="cyan7", x=0, y=0)]}, "cyan7 is neither a robot"),
     "a flying robot": ("place", {"place": [Placement(body="cyan2", x=1, y=3, z=2)]}, "stands on the ground"),
+    "a robot as fast as light": ("place", {"place": [Placement(body="cyan1", x=1, y=3, omega=3e8)]}, "at most 40 m/s"),
+    "a ball in orbit": ("place", {"place": [Placement(body="ball", x=1, y=3, z=4e5)]}, "and 10 m high"),
     "a ball in the ground": ("place", {"place": [Placement(body="ball", x=1, y=3, z=0)]}, "its radius is 0.11 m"),
     "nobody": ("place", {}, "no body to place is named"),
     "a twelfth robot": (
