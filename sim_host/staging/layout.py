@@ -107,11 +107,12 @@ def check_layout(layout: Layout, specs: Specs, new: Sequence[str]) -> None:
     goals = goal_blocks(specs.pitch) if specs.furniture.goals else []
     for name in new:
         body = bodies[name]
+        fault = why_outside(specs.pitch, body) if name in layout.at else None
         if name in layout.at and isinstance(body, Disc):
             others = [other for other in bodies.values() if other is not body]
-            fault = why_outside(specs.pitch, body) or why_overlapping(body, [*others, *goals])
+            fault = fault or why_overlapping(body, [*others, *goals])
         else:  # obstacles may overlap each other
-            fault = next(filter(None, [why_overlapping(other, [body]) for other in movable]), None)
+            fault = fault or next(filter(None, [why_overlapping(other, [body]) for other in movable]), None)
         if fault is not None:
             raise TouchlineError(fault)
 

@@ -53,15 +53,24 @@ def goal_blocks(pitch: Pitch) -> list[Block]:
     ]
 
 
-def why_outside(pitch: Pitch, body: Disc) -> str | None:
+def why_outside(pitch: Pitch, body: Body) -> str | None:
     """Why a body is not within the boundary, or None."""
-    x, y = (pitch.goal_line + pitch.border - body.radius, pitch.touch_line + pitch.border - body.radius)
+    half_x, half_y = _extents(body)
+    x, y = pitch.goal_line + pitch.border - half_x, pitch.touch_line + pitch.border - half_y
     if abs(body.x) <= x + MAX_OVERLAP and abs(body.y) <= y + MAX_OVERLAP:
         return None
     return (
         f"{body.name} would be at ({body.x:g}, {body.y:g}), beyond the boundary; "
         f"|x| is at most {x:.2f} m, |y| at most {y:.2f} m"
     )
+
+
+def _extents(body: Body) -> tuple[float, float]:
+    """How far a body reaches from its centre along x and y, in m."""
+    if isinstance(body, Disc):
+        return body.radius, body.radius
+    c, s = abs(math.cos(body.heading)), abs(math.sin(body.heading))
+    return c * body.half_x + s * body.half_y, s * body.half_x + c * body.half_y
 
 
 def why_overlapping(body: Disc, others: Iterable[Body]) -> str | None:

@@ -307,6 +307,11 @@ REFUSED: dict[str, tuple[str, dict[str, Any], str]] = {
         "cyan has 12 robots; a side has at most 11",
     ),
     "a name twice": ("add", {"obstacles": [WALL.model_copy(update={"name": "cyan1"})]}, 'two bodies are named "cyan1"'),
+    "a box to push in the boundary": (
+        "add",
+        {"obstacles": [WALL.model_copy(update={"name": "box", "mass": 5.0, "place": [3.0, 8.0], "heading": 0.1})]},
+        "box would be at (3, 8), beyond the boundary",
+    ),
     "an obstacle on a robot": ("add", {"obstacles": [WALL.model_copy(update={"place": [-10.5, 0.5]})]}, "inside wall"),
     "everybody": (
         "remove",
