@@ -78,7 +78,8 @@ class HardwareRunner(BrainRunner):
         if news is None or self._attack is None or not self._is_up_to_date(now):
             return None  # the brain is not asked, and the guard falls back
         percept = self._percepts.percept(now, self._attack)
-        time = news.time + now - self._news_at
+        late = now - self._news_at
+        time = news.time + late
         self._tick = max(self._tick + 1, round(time / self._period))
         return Sight(
             tick=self._tick,
@@ -92,12 +93,17 @@ class HardwareRunner(BrainRunner):
             stuck=newest.stuck,
             obstacles=percept.obstacles,
             obstacles_age=percept.obstacles_age,
-            radio=news.radio,
+            radio={name: one.replace(age=round(one.age + late, 4)) for name, one in news.radio.items()},
             game=news.game,
             order=news.order,
             outcome=Outcome(answers_tick=self._demanded, refused=self.guard.refused),
             sensors=self._percepts.readings(now),
         )
+
+    def restart(self, brain: Brain) -> None:
+        """As in `Runner`; the news of a match that is over are forgotten, and which way the team attacked."""
+        super().restart(brain)
+        self._tick, self._news, self._sent_tick, self._attack = -1, None, None, None
 
     def _think(self, sight: Sight) -> bytes:
         """Decide, and let the hardware do it; the host's sight is answered."""

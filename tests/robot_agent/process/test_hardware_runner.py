@@ -142,12 +142,21 @@ def test_with_a_host_game_order_and_radio_are_its_and_the_body_is_the_robots_own
     seen = robot.brain.seen
     assert (seen[0].self.x, seen[0].game.phase, seen[0].radio) == (0.0, TeamPhase.OUR_CORNER, radio)
     assert [one.tick for one in seen] == [700, 701, 702] and seen[-1].time == approx(14.04)
+    assert [one.radio["cyan4"].age for one in seen] == approx([0.1, 0.12, 0.14])
     assert commands.receive().message().answers_tick == 700
     assert commands.receive() is None, "a sight of the host is answered once"
     sights.put(make_sight(703))
     play(1, robot)
     assert commands.receive().message().answers_tick == 703
     assert robot.brain.seen[-1].tick == 703
+    robot.restart(ToThePost())  # the host plays another match
+    sights.put(make_sight(1))
+    play(3, robot)
+    assert robot.brain.seen == []
+    field.host.publisher(STATE).put(GameState(tick=1, time=0.02, phase=Phase.PLAY))
+    sights.put(make_sight(1))
+    play(2, robot)
+    assert [(one.tick, one.time) for one in robot.brain.seen] == [(1, 0.02), (2, 0.04)]
 
 
 def test_a_robot_that_gets_no_sights_of_its_host_any_more_is_not_asked(field):
