@@ -221,7 +221,7 @@ class PresenceWatch:
         return self.mailbox.get(timeout)
 
 
-@dataclass
+@dataclass(eq=False)
 class Bus(ABC):
     """One process's connection to the bus of one match."""
 

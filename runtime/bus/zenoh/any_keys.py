@@ -8,9 +8,9 @@ import zenoh
 from runtime.access.credentials import Credentials, read_credentials
 from runtime.access.protection import Protection
 from runtime.bus.contract import BusError, Stamp
-from runtime.bus.zenoh.bus import ZenohBus
+from runtime.bus.zenoh.bus import ZenohBus, open_host
 from runtime.bus.zenoh.reader import STAMP
-from runtime.bus.zenoh.session import first_line, open_connection, open_router
+from runtime.bus.zenoh.session import first_line, open_connection
 from runtime.process.clock import Clock
 from runtime.process.timing import RECONNECT_S
 
@@ -54,8 +54,7 @@ def open_network(
         BusError: nothing answers at `connect`, or `listen` cannot be listened on.
     """
     if connect is None:
-        session, endpoint = open_router(listen, protection)
-        return ZenohBus(name, clock, session, endpoint, is_client=False)
+        return open_host(name, clock, listen, protection)
     known: Credentials | None = read_credentials(credentials) if credentials is not None else None
     session, endpoint, _ = open_connection(lambda: (connect, known), clock, patience)
     return ZenohBus(name, clock, session, endpoint, is_client=True)

@@ -50,18 +50,7 @@ def open_host(
     protection: Protection | None = None,
     limits: Mapping[str, object] | None = None,
 ) -> "ZenohBus":
-    """Open the host's bus: a router that listens on one endpoint, the bus's `endpoint`.
-
-    Port 0 takes a free port. None takes the default endpoint, or a free port where another process listens there.
-
-    Args:
-        protection: users, what each may do, and the certificate; None admits everybody to everything.
-        limits: further settings of the router.
-
-    Raises:
-        EndpointInUseError: another process listens on the endpoint.
-        BusError: it cannot listen on the endpoint.
-    """
+    """Open the host's bus: a router that listens on one endpoint, the bus's `endpoint`; all as in `open_router`."""
     session, endpoint = open_router(listen, protection, limits)
     return ZenohBus(match, clock, session, endpoint, is_client=False)
 
@@ -147,7 +136,7 @@ class ZenohBus(Bus):
         self._mailboxes: list[Mailbox[Any]] = []
         self._subscriptions: list[ZenohReader] = []
         self._tokens: dict[str, zenoh.LivelinessToken] = {}
-        _close_at_exit(self)
+        _OPEN.add(self)
 
     def publisher(self, topic: Topic, **chunks: str) -> Publisher:
         check_publishable(topic)
@@ -239,13 +228,11 @@ class ZenohBus(Bus):
         return self._context
 
 
-def _close_at_exit(bus: ZenohBus) -> None:
+_OPEN: "weakref.WeakSet[ZenohBus]" = weakref.WeakSet()
+
+
+@atexit.register
+def _close_all() -> None:
     """Close before the interpreter shuts down: a process that watches presence hangs at exit with an open session."""
-    reference = weakref.ref(bus)
-
-    def close() -> None:
-        left = reference()
-        if left is not None:
-            left.close()
-
-    atexit.register(close)
+    for bus in list(_OPEN):
+        bus.close()
