@@ -58,18 +58,18 @@ def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, 
     Raises:
         TouchlineError: one line with the wrong part of the spec, or with what its code raised, and where.
     """
-    if remedy := wrong_team(spec):
-        raise TouchlineError(f'brain is "{spec}"; {remedy}')
     said = f'brain is "{spec}"'
+    if remedy := wrong_team(spec):
+        raise TouchlineError(f"{said}; {remedy}")
     if file := policy_file(spec):
         return _policy_brain(said, file, briefing, beside_match, here)
     found, name = load_object(said, brain_of(spec), beside_match, here)
     if not isinstance(found, type):
         if not callable(found):
-            raise TouchlineError(f'brain is "{spec}"; {name} is {found!r}; name a class or a function act(sight)')
-        _check_act(spec, found, f"{name}(sight)", f"def {name}(sight)")
+            raise TouchlineError(f"{said}; {name} is {found!r}; name a class or a function act(sight)")
+        _check_act(said, found, f"{name}(sight)", f"def {name}(sight)")
         return _FunctionBrain(found)
-    return _build(spec, found, briefing)
+    return _build(said, found, briefing)
 
 
 def _policy_brain(said: str, file: str, briefing: Briefing, beside: Path | None, here: Path | None) -> Brain:
@@ -87,35 +87,33 @@ def _policy_brain(said: str, file: str, briefing: Briefing, beside: Path | None,
     return brain
 
 
-def _build(spec: str, cls: type, briefing: Briefing) -> Brain:
+def _build(said: str, cls: type, briefing: Briefing) -> Brain:
     if not callable(getattr(cls, "act", None)):
         where = definition_of(cls)
-        raise TouchlineError(f'brain is "{spec}"; {cls.__name__}{where} has no method act(self, sight); write one')
+        raise TouchlineError(f"{said}; {cls.__name__}{where} has no method act(self, sight); write one")
     if not _takes(cls, briefing):
         where = definition_of(vars(cls).get("__init__", cls)) or definition_of(cls)
         raise TouchlineError(
-            f'brain is "{spec}"; {cls.__name__}.__init__{where} does not take the briefing alone; '
+            f"{said}; {cls.__name__}.__init__{where} does not take the briefing alone; "
             "write def __init__(self, briefing)"
         )
     try:
         brain: Brain = cls(briefing)
     except (Exception, SystemExit) as error:
         call = f"{cls.__name__}(briefing)"
-        raise TouchlineError(f'brain is "{spec}"; {call} raised {_one_line(error)} for {briefing.robot}') from error
-    _check_act(spec, brain.act, f"{cls.__name__}.act", "def act(self, sight)")
+        raise TouchlineError(f"{said}; {call} raised {_one_line(error)} for {briefing.robot}") from error
+    _check_act(said, brain.act, f"{cls.__name__}.act", "def act(self, sight)")
     return brain
 
 
-def _check_act(spec: str, act: Callable[..., Any], name: str, remedy: str) -> None:
+def _check_act(said: str, act: Callable[..., Any], name: str, remedy: str) -> None:
     """Check that `act` can be called with a sight, and returns without being awaited."""
     if inspect.iscoroutinefunction(act) or inspect.isasyncgenfunction(act):
-        raise TouchlineError(f'brain is "{spec}"; {name}{definition_of(act)} is async; write {remedy} without async')
+        raise TouchlineError(f"{said}; {name}{definition_of(act)} is async; write {remedy} without async")
     if inspect.isgeneratorfunction(act):
-        raise TouchlineError(f'brain is "{spec}"; {name}{definition_of(act)} yields; return one Command')
+        raise TouchlineError(f"{said}; {name}{definition_of(act)} yields; return one Command")
     if not _takes(act, None):
-        raise TouchlineError(
-            f'brain is "{spec}"; {name}{definition_of(act)} does not take the sight alone; write {remedy}'
-        )
+        raise TouchlineError(f"{said}; {name}{definition_of(act)} does not take the sight alone; write {remedy}")
 
 
 def _takes(function: Callable[..., Any], argument: object) -> bool:
