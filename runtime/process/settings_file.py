@@ -54,12 +54,7 @@ def run_process(package: str, model: type[S], run: Callable[[S], int], arguments
     """Run `python -m PACKAGE --settings FILE`; returns the exit status of the process."""
     parser = argparse.ArgumentParser(prog=f"python -m {package}", description=model.__doc__, allow_abbrev=False)
     keys = f"{', '.join(model.model_fields)}; {STANDARD_INPUT} reads standard input"
-    parser.add_argument(
-        "--settings",
-        required=True,
-        metavar="FILE",
-        help=f"JSON object: {keys}",
-    )
+    parser.add_argument("--settings", required=True, metavar="FILE", help=f"JSON object: {keys}")
     source: str = parser.parse_args(arguments).settings
     return exit_status(lambda: run(read_settings(model, source)))
 

@@ -23,8 +23,4 @@ def fingerprint() -> dict[str, str]:
     """
     answers = (math.sin(1e5), math.cos(2.5), math.exp(1.1), math.atan2(0.3, -0.7), math.pow(1.1, 7.3), math.log(3.3))
     products = np.array([0.3 + 0.7j, 1.1 - 2.3j]) * np.array([0.6 - 0.8j, 2.2 + 0.1j])
-    return {
-        "engine": _engine(),
-        "libm": struct.pack("<6d", *answers).hex(),
-        "numpy": products.tobytes().hex(),
-    }
+    return {"engine": _engine(), "libm": struct.pack("<6d", *answers).hex(), "numpy": products.tobytes().hex()}

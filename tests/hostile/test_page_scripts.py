@@ -43,8 +43,7 @@ TABS = ("match", "coach", "drive", "settings", "host", "log")
 def hostile_host(medium: SharedState) -> Iterator[FakeHost]:
     """A host whose match has script in every free text."""
     config = load_match(
-        None,
-        {f"teams.{side}.{key}": value for side in Side for key, value in (("size", 2), ("name", SCRIPTS[0][:40]))},
+        None, {f"teams.{side}.{key}": value for side in Side for key, value in (("size", 2), ("name", SCRIPTS[0][:40]))}
     )
     host = FakeHost(medium, config, in_threads=True)
     yield host

@@ -16,12 +16,7 @@ from touchline.launch.terminal.screen import screen_for
 
 
 def run_replay(
-    replay: ReplayLoop,
-    stop: StopSignals,
-    look_after: Callable[[], list[Notice]],
-    view: LiveView | None,
-    *,
-    quiet: bool,
+    replay: ReplayLoop, stop: StopSignals, look_after: Callable[[], list[Notice]], view: LiveView | None, *, quiet: bool
 ) -> ReplayReply:
     """Play until the end or a signal; the last status. `quiet` leaves standard output to what follows.
 

@@ -2,11 +2,7 @@
 
 import zenoh
 
-from runtime.bus.contract import (
-    Presence,
-    PresenceKind,
-    PresenceWatch,
-)
+from runtime.bus.contract import Presence, PresenceKind, PresenceWatch
 from runtime.bus.zenoh.session import SessionContext
 from schemas.topics import TOPICS
 from schemas.wire.message import is_name

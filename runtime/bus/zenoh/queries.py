@@ -4,13 +4,7 @@ from contextlib import suppress
 
 import zenoh
 
-from runtime.bus.contract import (
-    NoReplyError,
-    PendingReply,
-    Query,
-    RefusedQueryError,
-    Server,
-)
+from runtime.bus.contract import NoReplyError, PendingReply, Query, RefusedQueryError, Server
 from runtime.bus.refusals import NO_KEY
 from runtime.bus.zenoh.session import SessionContext
 from schemas.topic import Topic

@@ -19,14 +19,7 @@ from runtime.bus.zenoh.protection_settings import client_settings, router_settin
 from runtime.bus.zenoh.unreachable import why_unreachable
 from runtime.bus.zenoh.wait_timer import WaitTimer
 from runtime.process.clock import Clock
-from runtime.process.timing import (
-    CONGESTION_US,
-    FIRST_ATTEMPT_S,
-    HANDSHAKE_S,
-    LEASE_S,
-    RETRY_FROM_MS,
-    RETRY_TO_MS,
-)
+from runtime.process.timing import CONGESTION_US, FIRST_ATTEMPT_S, HANDSHAKE_S, LEASE_S, RETRY_FROM_MS, RETRY_TO_MS
 
 _THREADS = "ZENOH_RUNTIME"
 """Environment variable with Zenoh's thread settings."""

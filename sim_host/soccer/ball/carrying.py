@@ -52,10 +52,7 @@ class HeldBall(NamedTuple):
         """Place of the ball before the robot, after the step, m."""
         robot, gap, (vx, vy, omega) = self.robot, self.dribble.gap, self.drive
         turned = robot.heading + omega * self.step
-        return (
-            robot.x + vx * self.step + gap * math.cos(turned),
-            robot.y + vy * self.step + gap * math.sin(turned),
-        )
+        return (robot.x + vx * self.step + gap * math.cos(turned), robot.y + vy * self.step + gap * math.sin(turned))
 
 
 def by_pose(held: HeldBall) -> CarryStep:

@@ -38,10 +38,7 @@ def host() -> Iterator[ZenohBus]:
 
 
 def test_nobody_publishes_as_the_host(host: ZenohBus, mode: str) -> None:
-    with (
-        open_client(MATCH, WallClock(), host.endpoint) as recorder,
-        open_session(host.endpoint, mode) as session,
-    ):
+    with open_client(MATCH, WallClock(), host.endpoint) as recorder, open_session(host.endpoint, mode) as session:
         batches, writer = recorder.subscribe(RECORD_BATCH), host.publisher(RECORD_BATCH)
         deadline, received = time.monotonic() + LIMIT, []
         while received.count(b"real") < 10 and time.monotonic() < deadline:
@@ -53,10 +50,7 @@ def test_nobody_publishes_as_the_host(host: ZenohBus, mode: str) -> None:
 
 
 def test_nobody_answers_in_place_of_the_host(host: ZenohBus, mode: str) -> None:
-    with (
-        open_client(MATCH, WallClock(), host.endpoint) as viewer,
-        open_session(host.endpoint, mode) as session,
-    ):
+    with open_client(MATCH, WallClock(), host.endpoint) as viewer, open_session(host.endpoint, mode) as session:
         asked: list[object] = []
         held = [session.declare_queryable(PREFIX + key, asked.append) for key in ("host/setup", "host/**", "**")]
         with pytest.raises(NoReplyError):

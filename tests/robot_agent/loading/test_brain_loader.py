@@ -135,10 +135,7 @@ def test_a_plain_function_is_a_brain(here, briefing, sight_of):
         ("students_team:Taem", 'students_team has no Taem; did you mean "Team"?'),
         ("students_team:NUMBER", "NUMBER is 4; name a class or a function act(sight)"),
         ("students_team:Dumb", "Dumb (students_team.py, line 11) has no method act(self, sight); write one"),
-        (
-            "students_team:Fragile",
-            "(briefing) raised KeyError: 'formation' (students_team.py, line 17) for cyan2",
-        ),
+        ("students_team:Fragile", "(briefing) raised KeyError: 'formation' (students_team.py, line 17) for cyan2"),
         (
             "students_team:WithoutInit",
             "WithoutInit.__init__ (students_team.py, line 22) does not take the briefing alone; write def __in",
@@ -148,19 +145,10 @@ def test_a_plain_function_is_a_brain(here, briefing, sight_of):
             "students_team:Blind",
             "Blind.act (students_team.py, line 37) does not take the sight alone; write def act(self, sight)",
         ),
-        (
-            "students_team:nothing",
-            "nothing(sight) (students_team.py, line 72) does not take the sight alone; write",
-        ),
-        (
-            "students_team:Later",
-            "Later.act (students_team.py, line 44) is async; write def act(self, sight) with",
-        ),
+        ("students_team:nothing", "nothing(sight) (students_team.py, line 72) does not take the sight alone; write"),
+        ("students_team:Later", "Later.act (students_team.py, line 44) is async; write def act(self, sight) with"),
         ("students_team:Stream", "Stream.act (students_team.py, line 51) yields; return one Command"),
-        (
-            "students_team:Quitter",
-            "(briefing) raised SystemExit: no licence (students_team.py, line 56) for cyan2",
-        ),
+        ("students_team:Quitter", "(briefing) raised SystemExit: no licence (students_team.py, line 56) for cyan2"),
         ("students_team:Parsing", "(students_team.py, line 64) for cyan2"),
         ("leaving_team:Team", "importing leaving_team raised SystemExit: no display (leaving_team.py, line 1)"),
         ("no_team:Team", "there is no module no_team in the current directory (/"),

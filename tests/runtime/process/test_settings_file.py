@@ -57,21 +57,9 @@ def test_a_settings_file_is_for_its_owner_alone(tmp_path: Path) -> None:
 WRONG: dict[str, tuple[type[Settings], object, str]] = {
     "a field that is not known": (WebSettings, {"prot": 80}, 'prot is not known; did you mean "port"?'),
     "a field that is missing": (AgentSettings, {"brain": "a:B"}, "robot is missing"),
-    "a name that is none": (
-        AgentSettings,
-        {"robot": "Cyan 1", "brain": "a:B"},
-        "robot is 'Cyan 1'; text of the form",
-    ),
-    "an endpoint that is none": (
-        ListenSettings,
-        {"listen": "here"},
-        "listen is 'here'; write it as tcp/",
-    ),
-    "a match that is none": (
-        RecorderSettings,
-        {"match": "a/*", "out": "a"},
-        "match is 'a/*'; a match name is",
-    ),
+    "a name that is none": (AgentSettings, {"robot": "Cyan 1", "brain": "a:B"}, "robot is 'Cyan 1'; text of the form"),
+    "an endpoint that is none": (ListenSettings, {"listen": "here"}, "listen is 'here'; write it as tcp/"),
+    "a match that is none": (RecorderSettings, {"match": "a/*", "out": "a"}, "match is 'a/*'; a match name is"),
     "text for a number": (WebSettings, {"port": "80"}, "port is '80'; a whole number"),
     "a number beyond its limits": (WebSettings, {"port": 70000}, "port is 70000; at most 65535"),
     "a field of a part": (

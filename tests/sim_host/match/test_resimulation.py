@@ -19,13 +19,7 @@ from schemas.messages.world import World
 from schemas.wire.message import VERSION
 from schemas.wire.part import encode
 from sim_host.match.live_parameters import LiveParameters
-from sim_host.match.resimulation import (
-    CheckpointState,
-    Conditions,
-    ImpossibleTickError,
-    Resimulation,
-    parameters_of,
-)
+from sim_host.match.resimulation import CheckpointState, Conditions, ImpossibleTickError, Resimulation, parameters_of
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.match.world_difference import Difference, differences
 from sim_host.soccer.game import ARENA
@@ -40,7 +34,7 @@ KINDS: dict[str, dict[str, Any]] = {
     "dribble by force": {
         "types": {
             "own": {
-                "dribble": {"method": "force", "stiffness": 200.0, "damping": 8.0, "max_pull": 8.0, "max_side": 4.0},
+                "dribble": {"method": "force", "stiffness": 200.0, "damping": 8.0, "max_pull": 8.0, "max_side": 4.0}
             }
         }
     },

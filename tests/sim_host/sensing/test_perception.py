@@ -13,12 +13,7 @@ from schemas.config.profile import load_profile
 from schemas.config.sections import Sensing
 from sim_host.snapshot import Roster
 
-ROBOTS = (
-    (-3.0, 1.0, 0.5, 1.0, -0.5, 0.2),
-    (2.0, -4.0, -3.0),
-    (5.0, 0.5, math.pi, -2.0, 0.1, -0.3),
-    (8.0, 3.0, 1.0),
-)
+ROBOTS = ((-3.0, 1.0, 0.5, 1.0, -0.5, 0.2), (2.0, -4.0, -3.0), (5.0, 0.5, math.pi, -2.0, 0.1, -0.3), (8.0, 3.0, 1.0))
 BALL = (1.0, 2.0, 0.5, 3.0, -1.0)
 MSL = load_profile("msl").sensing
 FAR = {"ball_range": 1000.0, "obstacle_range": 1000.0}

@@ -90,8 +90,7 @@ def test_a_brain_that_is_not_built_in_time_is_reported_and_its_process_ended(mon
     monkeypatch.setattr(check_brains, "HANG_S", 0.0)
     reported: list[str] = []
     config = load_match(
-        None,
-        {"patience.attendance": 0.1, "teams.cyan.brain": "my_team:Hangs", "teams.magenta.command": ["sh"]},
+        None, {"patience.attendance": 0.1, "teams.cyan.brain": "my_team:Hangs", "teams.magenta.command": ["sh"]}
     )
     with pytest.raises(TouchlineError, match=r"were not built within 0\.5 s; shorten __init__, or raise patience\."):
         check_teams(config, None, reported.append)

@@ -95,11 +95,7 @@ def head(setup: Setup, state: GameState | None) -> Text:
 
 
 def robots(
-    setup: Setup,
-    world: World | None,
-    radios: Mapping[str, Radio],
-    state: GameState | None,
-    health: Health | None,
+    setup: Setup, world: World | None, radios: Mapping[str, Radio], state: GameState | None, health: Health | None
 ) -> list[Text]:
     """One row for each robot: number and heading, role and intention, position, speed, ball, and trouble."""
     rows, everybody = [], numbered(setup)

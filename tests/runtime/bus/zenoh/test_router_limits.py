@@ -88,9 +88,7 @@ def test_commands_of_all_robots_in_one_burst_of_one_program_arrive(ends: tuple[B
             assert (received.key, received.payload) == (f"robot/{robot}/command", b"%d" % tick)
 
 
-def test_a_long_message_arrives_for_the_host_to_report_and_a_huge_one_does_not(
-    ends: tuple[Bus, zenoh.Session],
-) -> None:
+def test_a_long_message_arrives_for_the_host_to_report_and_a_huge_one_does_not(ends: tuple[Bus, zenoh.Session]) -> None:
     host, session = ends
     commands = host.subscribe(COMMAND)
     for size in (10_000, 40_000, 3_000_000, 20_000_000, 12_000):

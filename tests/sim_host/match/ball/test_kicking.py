@@ -92,10 +92,7 @@ def test_a_refused_kick_costs_no_charge(build, tell):
 
 @pytest.mark.parametrize(
     ("height", "place", "reason"),
-    [
-        (0.11, 0.45, "kick: ball not held"),
-        (0.45, 0.35, "kick: ball in the air, 0.45 m high"),
-    ],
+    [(0.11, 0.45, "kick: ball not held"), (0.45, 0.35, "kick: ball in the air, 0.45 m high")],
 )
 def test_an_impossible_kick_is_refused_with_the_reason(build, tell, height, place, reason):
     rig = build()

@@ -42,10 +42,7 @@ def pitch() -> Iterator[WorldRig]:
 
 @pytest.mark.parametrize(
     ("profile", "mass", "inertia", "radius", "height"),
-    [
-        ("msl", 39.0, (50.0, 50.0, 1.625), 0.245, 0.798),
-        ("paper", 31.0, (0.0, 0.0, 2.86), 0.334, 0.912),
-    ],
+    [("msl", 39.0, (50.0, 50.0, 1.625), 0.245, 0.798), ("paper", 31.0, (0.0, 0.0, 2.86), 0.334, 0.912)],
 )
 def test_loaded_bodies_have_the_mass_the_inertia_and_the_size_of_their_profile(
     profile: str, mass: float, inertia: tuple[float, ...], radius: float, height: float

@@ -152,10 +152,7 @@ def test_a_held_ball_is_not_pushed_into_its_holder(method: str) -> None:
             Placement(body="magenta1", x=gap + 0.5, y=0.08, heading=math.pi),
         ]
     )
-    told = {
-        "cyan1": AppliedInput(Drive(), dribble=True),
-        "magenta1": AppliedInput(Drive(vx=3.0), dribble=False),
-    }
+    told = {"cyan1": AppliedInput(Drive(), dribble=True), "magenta1": AppliedInput(Drive(vx=3.0), dribble=False)}
     for _ in range(60):
         snapshot = world.advance(told).snapshot
         robot, ball = snapshot.robots[0], snapshot.ball

@@ -210,10 +210,7 @@ def test_a_recording_that_cannot_be_written_goes_into_the_folder_of_the_run_with
     ):
         run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", path, SteppedClock())
         assert run.recording == run.folder / "match.mcap"
-        assert re.search(
-            rf"--record .*: {why}. {played}",
-            run.warning,
-        )
+        assert re.search(rf"--record .*: {why}. {played}", run.warning)
 
 
 def test_a_recording_that_is_there_is_left_as_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

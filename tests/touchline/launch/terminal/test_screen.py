@@ -23,9 +23,7 @@ def test_plain_status_lines_come_every_five_seconds_and_events_at_once() -> None
             if second == 2:
                 screen.event("goal", notable=True)
                 screen.warn("cyan1 crashed")
-    assert out.getvalue().splitlines() == [
-        *("status at 0", "goal", "cyan1 crashed", "status at 5", "status at 10"),
-    ]
+    assert out.getvalue().splitlines() == [*("status at 0", "goal", "cyan1 crashed", "status at 5", "status at 10")]
 
 
 def test_a_terminal_shows_notable_events_above_the_live_line_and_leaves_no_status_behind() -> None:
