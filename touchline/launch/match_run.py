@@ -16,6 +16,7 @@ from runtime.bus.contract import Bus, BusError
 from runtime.bus.outcome_file import read_outcome
 from runtime.bus.zenoh.bus import open_client
 from runtime.process.clock import Clock
+from runtime.process.ending import ending
 from runtime.process.settings_file import WRONG
 from runtime.process.timing import PARTING_S
 from schemas.config.confinement import Isolation
@@ -245,5 +246,5 @@ class MatchRun:
             raise TouchlineError(log[-1].removeprefix("touchline: "))
         for line in log:
             self._screen.warn(f"  host: {line}")
-        how = "was ended before full time" if status == 0 else f"ended with status {status}"
+        how = ending(status) if status else "was ended before full time"
         raise MatchFailedError(f"match abandoned: the host {how}; its log is {self._plan.folder / 'host.log'}")

@@ -51,6 +51,7 @@ def play(announcement, seen, phase):
 FULL_TIME = HOST + "\nfor _ in play(*sys.argv[1:], Phase.FULL_TIME): pass\n"
 CUT_SHORT = HOST + "\nfor _ in play(*sys.argv[1:], Phase.PLAY): pass\n"
 DIES = HOST + "\nfor _ in play(*sys.argv[1:], Phase.PLAY): sys.exit('the roof came down')\n"
+KILLED = HOST + "\nfor _ in play(*sys.argv[1:], Phase.PLAY): os.kill(os.getpid(), signal.SIGKILL)\n"
 INTERRUPTED = (
     HOST + "\nfor _ in play(*sys.argv[1:], Phase.PLAY):\n    os.kill(os.getppid(), signal.SIGINT)\n    signal.pause()\n"
 )
@@ -187,13 +188,12 @@ def test_a_recorder_that_waits_for_a_host_that_could_not_start_is_ended(stage: S
     assert WallClock().now() - began < 20.0  # not the half minute that a recorder has after a match
 
 
-def test_a_host_that_dies_ends_the_match_with_its_last_words(stage: Staged) -> None:
-    match = stage(DIES)
-    with pytest.raises(
-        MatchFailedError, match=r"match abandoned: the host ended with status 1; its log is .*host\.log"
-    ):
+@pytest.mark.parametrize(("host", "how"), [(DIES, "ended with status 1"), (KILLED, "was ended by SIGKILL")])
+def test_a_host_that_dies_ends_the_match_with_its_last_words(stage: Staged, host: str, how: str) -> None:
+    match = stage(host)
+    with pytest.raises(MatchFailedError, match=rf"match abandoned: the host {how}; its log is .*host\.log"):
         match.play()
-    assert "  host: the roof came down" in match.words.getvalue()
+    assert ("  host: the roof came down" in match.words.getvalue()) is (host is DIES)
 
 
 def test_a_host_that_was_ended_before_full_time_leaves_no_result(stage: Staged) -> None:
