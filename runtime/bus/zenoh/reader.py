@@ -83,8 +83,8 @@ class ZenohReader(Subscription):
         self.wake()
 
     def close(self) -> None:
-        self.end()
         try:
+            self.end()
             self._reader.undeclare()
         except zenoh.ZError:
             return  # undeclared with its session

@@ -10,7 +10,7 @@ import zenoh
 
 from runtime.bus.contract import ReceivedMessage
 from runtime.bus.mailbox import Mailbox
-from runtime.bus.zenoh.reader import ZenohReader
+from runtime.bus.zenoh.reader import ZenohReader, is_wake_up
 from runtime.bus.zenoh.session import SessionContext
 from schemas.topic import Topic
 
@@ -21,7 +21,7 @@ class ZenohSeveral(ZenohReader):
     def __init__(self, topic: Topic, keys: Sequence[str], context: SessionContext) -> None:
         super().__init__(topic, topic.fill(), context)
         self._keys = {context.prefix + key: key for key in keys}
-        self._kept: dict[str, zenoh.Sample] = {}
+        self._kept: dict[str, tuple[zenoh.Sample, zenoh.ZBytes]] = {}
         self._mailbox: Mailbox[zenoh.Sample] = Mailbox()
         into_mailbox = zenoh.handlers.Callback(self._mailbox.put, indirect=False)
         self._readers = [context.session.declare_subscriber(key, into_mailbox) for key in self._keys]
@@ -30,16 +30,17 @@ class ZenohSeveral(ZenohReader):
         kept, mailbox = self._kept, self._mailbox
         sample = mailbox.get(0.0 if kept else timeout)
         while sample is not None:
-            key = self._keys.get(str(sample.key_expr))
-            if key is not None:  # otherwise somebody publishes on a key with wildcards
+            key, payload = self._keys.get(str(sample.key_expr)), sample.payload
+            # without a key somebody publishes on one with wildcards, and a wake-up is that of another reader
+            if key is not None and (len(payload) or not is_wake_up(sample)):
                 kept.pop(key, None)
-                kept[key] = sample
+                kept[key] = sample, payload
             sample = mailbox.get(0.0)
         if not kept:
             return None
         key = next(iter(kept))
-        sample = kept.pop(key)
-        return self._message(sample, key, sample.payload.to_bytes())
+        sample, payload = kept.pop(key)
+        return self._message(sample, key, payload.to_bytes())
 
     def wake(self) -> None:
         """End all waits."""

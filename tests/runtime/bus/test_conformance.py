@@ -181,6 +181,7 @@ def test_one_reader_of_several_keys_yields_the_newest_message_of_each_and_nothin
 def test_a_wait_for_several_keys_has_an_end_and_is_ended_with_its_reader_and_its_bus(buses: Buses, how: str) -> None:
     bus = buses.join()
     reader = bus.subscribe_each(SIGHT, robot=["cyan1", "cyan2"])
+    assert bus.subscribe(SIGHT, robot="cyan1").receive(MOMENT) is None
     assert reader.receive(MOMENT) is None
     ending = threading.Timer(MOMENT, bus.close if how == "bus" else reader.close)
     ending.start()
@@ -265,6 +266,7 @@ def test_a_waiting_reader_is_woken_when_its_bus_is_closed(buses: Buses, topic: T
     bus.close()
     waiter.join(SOON)
     assert done.is_set()
+    reader.close()
 
 
 def test_a_question_is_answered_or_fails_with_a_reason(buses: Buses) -> None:
