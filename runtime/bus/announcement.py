@@ -100,26 +100,22 @@ def announced_to_user(announcement: Announcement) -> Iterator[None]:
         yield
 
 
-def announcement_in(path: Path) -> Announcement | None:
-    """The announcement of a host that runs; None without one."""
-    try:
-        with path.open(encoding="utf-8") as file:
-            return None if _is_stale(file.fileno()) else decoder(Announcement).decode(file.read())
-    except (OSError, ValueError):
-        return None
+def announcement_in(path: Path, *, tidy: bool = False) -> Announcement | None:
+    """The announcement of a host that runs; None without one. `tidy` removes the file of one that has ended."""
+    # no such file; another version's; this user may only read
+    with suppress(OSError, ValueError), path.open(encoding="utf-8") as file:
+        if not _is_stale(file.fileno()):
+            found: Announcement = decoder(Announcement).decode(file.read())
+            return found
+        if tidy:
+            path.unlink()
+    return None
 
 
 def running_hosts() -> list[Announcement]:
     """This user's running hosts on this machine; files of hosts that have ended are removed."""
-    found = []
-    for path in (path for folder in user_folders() for path in sorted(folder.glob("*.json"))):
-        announcement = announcement_in(path)
-        if announcement is not None:
-            found.append(announcement)
-        else:
-            with suppress(OSError):  # another client has removed it, or this one may only read
-                path.unlink()
-    return found
+    paths = [path for folder in user_folders() for path in sorted(folder.glob("*.json"))]
+    return [found for path in paths if (found := announcement_in(path, tidy=True)) is not None]
 
 
 def _is_stale(handle: int) -> bool:

@@ -54,6 +54,9 @@ def test_the_file_of_a_host_that_was_killed_is_ignored_and_removed(runtime, run)
     killed.write_text(FRIENDLY.json())
     assert running_hosts() == [CUP]
     assert not killed.exists()
+    (running,) = runtime.iterdir()
+    running.write_text('{"port": 7447}')  # of a host of another version
+    assert running_hosts() == [] and running.exists()
 
 
 def test_a_launcher_reads_the_announcement_of_its_own_host(tmp_path):
