@@ -64,6 +64,8 @@ def keep_clear(drive: Drive, sight: Sight, setup: Setup, clearance: float) -> Dr
     most, change = setup.drive.acceleration * _AHEAD, math.hypot(wx - me.vx, wy - me.vy)
     share = 1.0 if change <= most else most / change
     wx, wy = me.vx + share * (wx - me.vx), me.vy + share * (wy - me.vy)
+    fits = min(1.0, setup.drive.max_speed / max(math.hypot(wx, wy), _SAME))
+    wx, wy = fits * wx, fits * wy
     if all(limit.allows(wx, wy) for limit in limits):
         return drive
     if not setup.drive.sideways:

@@ -14,6 +14,8 @@ from schemas.messages.radio import Motion
 
 _SLACK = 1.1
 """Share of the top speed up to which a robot is believed to have moved."""
+_FASTEST = 3.0
+"""Times the top speed, and the top turn rate, that a robot can have: one that is hit is faster for a moment."""
 _DRIVES_ON = 0.5
 """s for which a robot is believed to drive without a pose: then it has fallen back."""
 _FUTURE = 1e-3
@@ -54,7 +56,8 @@ class ReadingChecks:
 
         Poses that agree with each other for `relocation` s are taken over: the robot was carried.
         """
-        self._top_speed, self._jump, self._relocation = drive.max_speed, jump, relocation
+        self._top_speed, self._top_turn_rate = drive.max_speed, drive.max_turn_rate
+        self._jump, self._relocation = jump, relocation
         self._devices: dict[str, _Device] = {}
         self._last: tuple[float, Motion] | None = None
         """The newest pose that was taken over, and its time."""
@@ -97,6 +100,9 @@ class ReadingChecks:
         numbers = structs.astuple(motion)
         if not _is_finite(time, *numbers):
             return f"a reading is not finite, {', '.join(f'{number:g}' for number in numbers)} at {time:g} s"
+        speed = math.hypot(motion.vx, motion.vy)
+        if speed > _FASTEST * self._top_speed or abs(motion.omega) > _FASTEST * self._top_turn_rate:
+            return f"a robot does not drive at {speed:.1f} m/s and {motion.omega:.1f} rad/s"
         if time > now + _FUTURE:
             return f"a reading is {time - now:.3f} s in the future"
         if self._last is not None and time < self._last[0]:

@@ -30,6 +30,11 @@ def test_a_robot_that_is_too_near_is_driven_away_and_may_turn():
     assert -0.31 < found.vx < -0.2 and found.vy == approx(0.0, abs=1e-9) and found.omega == 3.0
 
 
+def test_a_velocity_that_was_measured_wrong_asks_for_no_more_than_top_speed():
+    found = keep_clear(Drive(vx=1.0), sight([(3.0, 0.0)], velocity=(300.0, 20.0, 0.0)), SETUP, 0.2)
+    assert math.hypot(found.vx, found.vy) <= SETUP.drive.max_speed
+
+
 @pytest.mark.parametrize("aside", [0.0, 0.01, 0.06, 0.3])
 def test_a_robot_between_two_bodies_is_not_driven_out_at_speed(aside):
     between = sight([(0.0, 2 * REACH + 0.02), (aside, -2 * REACH - 0.02)])

@@ -38,6 +38,13 @@ def test_a_pose_that_is_not_finite_is_refused_and_counted(checks, wrong):
     assert checks.health(1.0)["motion"].refused == 1
 
 
+@pytest.mark.parametrize("wrong", [at(0.0, vx=9.0, vy=-9.0), at(0.0, omega=-25.0)])
+def test_a_velocity_that_no_robot_of_the_profile_has_is_refused(checks, wrong):
+    assert accepted(checks, 1.0, at(0.0, vx=6.0, omega=12.0))[0].motion is not None, "a robot that was hit"
+    readings, faults = accepted(checks, 1.02, wrong)
+    assert readings.motion is None and faults[0].startswith("motion: a robot does not drive at")
+
+
 def test_a_pose_that_jumps_by_five_metres_is_refused_until_it_has_stayed_there(checks):
     assert accepted(checks, 0.0, at(0.0))[0].motion is not None
     refused = [accepted(checks, 0.02 * n, at(5.0 + 0.01 * n))[0].motion is None for n in range(1, 60)]
