@@ -10,14 +10,12 @@ from collections import deque
 from msgspec.structs import replace
 
 from robot_agent.hardware.contract import Picture, SensorReadings
+from robot_agent.hardware.reading_checks import OLDEST
 from schemas.config.sensors.table import Reading
 from schemas.frames import Pose, rotate, wrap
 from schemas.messages.percept import DIGITS, Percept
 from schemas.messages.radio import Motion
 from schemas.messages.sight import BallSight, Obstacle
-
-_KEPT = 2.0
-"""s of poses that are kept for pictures that come late."""
 
 
 class OwnPercepts:
@@ -45,7 +43,7 @@ class OwnPercepts:
         self.newest = readings
         if readings.motion is not None:
             self._motions.append((readings.time, readings.motion))
-            while self._motions[0][0] < readings.time - _KEPT:
+            while self._motions[0][0] < readings.time - OLDEST:
                 self._motions.popleft()
         for name, reading in readings.sensors.items():
             self._sensors[name] = readings.time - reading.age, reading

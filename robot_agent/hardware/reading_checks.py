@@ -20,6 +20,8 @@ _DRIVES_ON = 0.5
 """s for which a robot is believed to drive without a pose: then it has fallen back."""
 _FUTURE = 1e-3
 """s by which a reading may be ahead: clocks are read one after the other."""
+OLDEST = 2.0
+"""s for which poses are kept; a picture that is older has no place, as by a camera's clock that is another one."""
 _RATE_WINDOW = 1.0
 """s over which a rate is counted."""
 MOTION, CAMERA, LINE = "motion", "camera", "line"
@@ -102,7 +104,7 @@ class ReadingChecks:
             return f"a reading is not finite, {', '.join(f'{number:g}' for number in numbers)} at {time:g} s"
         speed = math.hypot(motion.vx, motion.vy)
         if speed > _FASTEST * self._top_speed or abs(motion.omega) > _FASTEST * self._top_turn_rate:
-            return f"a robot does not drive at {speed:.1f} m/s and {motion.omega:.1f} rad/s"
+            return f"a robot does not drive at {speed:.3g} m/s and {motion.omega:.3g} rad/s"
         if time > now + _FUTURE:
             return f"a reading is {time - now:.3f} s in the future"
         if self._last is not None and time < self._last[0]:
@@ -136,6 +138,8 @@ def _picture_fault(picture: Picture, now: float) -> str | None:
         return "a picture has numbers that are not finite"
     if picture.time > now + _FUTURE:
         return f"a picture is {picture.time - now:.3f} s in the future"
+    if picture.time < now - OLDEST:
+        return f"a picture is {now - picture.time:.3g} s old, at most {OLDEST:g}"
     return None
 
 

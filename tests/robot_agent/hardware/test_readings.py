@@ -72,6 +72,7 @@ def test_pictures_and_sensors_that_are_not_finite_or_from_the_future_are_refused
     assert readings.picture is None and readings.sensors == {"north": compass}
     assert faults == ["camera: a picture has numbers that are not finite", "front: a reading is not finite"]
     assert "1.000 s in the future" in accepted(checks, 1.0, picture=late)[1][0]
+    assert accepted(checks, 50.0, picture=late)[1] == ["camera: a picture is 48 s old, at most 2"]
 
 
 def test_the_rate_and_the_age_of_each_device_are_those_of_the_last_second(checks):
