@@ -11,7 +11,7 @@ import pytest
 from robot_agent.sdk.contract import Briefing
 from schemas.config.match_config import load_match
 from schemas.messages import debug
-from schemas.messages.command import Command
+from schemas.messages.command import Command, Drive
 from schemas.messages.sight import Sight
 from support.messages import make_setup, make_sight
 from touchline.play.play_match import InProcessMatch
@@ -39,6 +39,23 @@ def test_its_brain_is_slower_while_it_holds_the_ball(brains: dict[str, Any]) -> 
     briefing, sight = Briefing.of("cyan3", make_setup()), make_sight(robot="cyan3", holding=True)
     careful, team = (brain(briefing).act(sight) for brain in (brains["Careful"], brains["MyTeam"]))
     assert careful.drive.vx == 0.5 * team.drive.vx != 0.0
+
+
+@pytest.mark.slow
+def test_its_table_is_that_of_the_match_that_it_names(brains: dict[str, Any], tmp_path: Path) -> None:
+    duration, seed = map(int, re.search(r"--duration (\d+) --seed (\d+)", PAGE).groups())
+    robot = re.search(r"--agent (\w+)=careful", PAGE)[1]
+    shown = re.search(r"^ +(\d+) .* drive\.vx +(\S+) m/s +(\S+) m/s$", PAGE, re.MULTILINE).groups()
+    folder = tmp_path / "my_team"
+    match = InProcessMatch(load_match(folder / "match.toml", {"seed": seed, "duration": duration}), brain_folder=folder)
+    careful = brains["Careful"](Briefing.of(robot, match.simulation.setup()))
+    recorded = new = Drive()
+    while recorded == new:
+        sight = match.simulation.now.sights.perceived[robot].own_copy()
+        match.step()
+        recorded, new = match.commands[robot].drive, careful.act(sight).drive
+    match.close()
+    assert (str(sight.tick), f"{recorded.vx:.3f}", f"{new.vx:.3f}") == shown
 
 
 def test_the_example_plays_and_draws(brains: dict[str, Any]) -> None:

@@ -1,5 +1,7 @@
 """`touchline new`: the folder of a new team."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -27,6 +29,14 @@ def test_a_new_team_plays_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     outcome = play_match(config, watch=lambda tick: touched.update(tick.world.get("touches", ())), brain_folder=folder)
     assert outcome.time > 6.0
     assert {robot for robot in touched if robot.startswith("cyan")}
+
+
+@pytest.mark.slow
+def test_its_own_tests_pass(tmp_path: Path) -> None:
+    assert run.invoke(app, ["new", "my_team", "--in", str(tmp_path)]).exit_code == 0
+    words = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
+    done = subprocess.run(words, capture_output=True, text=True, cwd=tmp_path / "my_team")
+    assert done.returncode == 0, done.stdout
 
 
 def test_its_files_bear_the_name_of_the_team(tmp_path: Path) -> None:
