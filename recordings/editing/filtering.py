@@ -28,8 +28,6 @@ def filter_recording(
     Raises:
         TouchlineError: no message is selected, the recording is damaged inside, or the copy cannot be written.
     """
-    if out.exists() and recording.path.exists() and out.samefile(recording.path):
-        raise TouchlineError(f"{out}: would overwrite the recording that is read; give another name for --out")
     keys = [channel.key for channel in recording.channels if selection.includes(channel.key)]
     if not keys:
         raise TouchlineError(f"{recording.path}: none of its keys is selected; `touchline info` lists them")

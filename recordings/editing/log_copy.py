@@ -30,8 +30,6 @@ def copy_log(
     """
     log = open_log(paths, selection.key_of)
     check_no_match(log)
-    if any(out.exists() and out.samefile(file.path) for file in log.files):
-        raise TouchlineError(f"{out}: would overwrite the file that is read; give another name for --out")
     stop_ns = seconds_ns(end) if end is not None else None
     copied = 0
     try:

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from schemas.errors import TouchlineError
 from touchline.commands.cli import options
 
 
@@ -32,6 +33,8 @@ def filter(
     from recordings.reading.recording import open_recording
 
     options.check_span(start, end)
+    if out.exists():
+        raise TouchlineError(f"{out}: already exists; name another file, or move that one away")
     selection = options.selection(include, exclude)
     if is_match(files):
         messages = filter_recording(open_recording(files[0]), out, selection, start, end)

@@ -9,7 +9,6 @@ from recordings.inspection.difference import compare
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.recording import open_recording
 from schemas.config.settings import RecordOptions
-from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
 from schemas.messages.health import Health
 from schemas.soccer.game import Phase, Score
@@ -124,13 +123,6 @@ def test_a_copy_of_a_copy_says_which_keys_were_chosen_both_times(run, tmp_path):
     filter_recording(run("a"), first, KeySelection(("robot/**", "world", "game/**")))
     filter_recording(open_recording(first), second, KeySelection(("host/**", "world")))
     assert open_recording(second).manifest.include == ["world"]
-
-
-def test_a_copy_is_not_written_over_what_is_read(run):
-    recording = run("a")
-    with pytest.raises(TouchlineError, match="another name"):
-        filter_recording(recording, recording.path)
-    assert open_recording(recording.path, whole=True)
 
 
 def test_a_truncated_file_can_be_filtered_and_is_reported_as_truncated(run, tmp_path):
