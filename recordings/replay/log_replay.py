@@ -35,6 +35,8 @@ class Keys:
             if not old.strip("/") or not sign or not new.strip("/"):
                 raise TouchlineError(f'--rename is "{text}"; write the old and the new key: robot1/odom=robot2/odom')
             self._renamed[old.strip("/")] = new.strip("/")
+        self.unused = set(self._renamed)
+        """Old keys that no topic has had so far."""
 
     def of(self, topic: str) -> str | None:
         """The key of a topic; None for one that is not selected.
@@ -48,6 +50,7 @@ class Keys:
         for old, new in self._renamed.items():
             if key == old or key.startswith(old + "/"):
                 key = new + key[len(old) :]
+                self.unused.discard(old)
                 break
         key = self._prefix + key
         try:

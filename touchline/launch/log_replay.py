@@ -15,6 +15,7 @@ from runtime.access.protection import Protection
 from runtime.bus.contract import PresenceKind
 from runtime.bus.zenoh.any_keys import open_network
 from runtime.process.clock import WallClock
+from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayReply
 from touchline.launch.page import serve_page_beside
 from touchline.launch.processes.programs import Page
@@ -46,6 +47,8 @@ def replay_log(
     """
     log = open_log(files, keys.of)
     check_no_match(log)
+    if keys.unused:
+        raise TouchlineError(f"--rename: no topic has the key {min(keys.unused)}; `touchline info` lists them")
     with ExitStack() as stack:
         known = Protection.of_any_keys(read_host_credentials(credentials), name) if credentials is not None else None
         bus = stack.enter_context(open_network(name, WallClock(), connect, listen, protection=known))

@@ -149,6 +149,7 @@ def test_log_times_as_far_apart_as_mcap_can_say_are_played_as_fast_as_possible(t
         (["--from", "9"], "--from 9 is after the last message at 0.49 s; begin earlier"),
         (["--from", "0.3", "--to", "0.2"], "--to 0.2 is before --from 0.3; end later"),
         (["--rename", "robot1"], '--rename is "robot1"; write the old and the new key: robot1/odom=robot2/odom'),
+        (["--rename", "robot=spare"], "--rename: no topic has the key robot; `touchline info` lists them"),
         (["--only", "arm/**"], "no message is selected; `touchline info .*` lists the keys"),
     ],
 )
