@@ -1,6 +1,7 @@
 """A task as an environment of Gymnasium: one robot learns, the others are played by their brains."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import gymnasium
@@ -24,7 +25,7 @@ class RobotEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
 
     def __init__(
         self,
-        task: str,
+        task: str | Path,
         *,
         robot: str | None = None,
         parameters: Mapping[str, Parameter] | None = None,

@@ -1,6 +1,7 @@
 """The scores of episodes that brains play in this process, as `touchline task run` plays them."""
 
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any
 
 from sim_host.task.judge import TaskState
@@ -9,7 +10,7 @@ from touchline.play.play_match import InProcessMatch
 
 
 def scores(
-    task: str, seeds: Iterable[int], brain: str | None = None, overrides: Mapping[str, Any] | None = None
+    task: str | Path, seeds: Iterable[int], brain: str | None = None, overrides: Mapping[str, Any] | None = None
 ) -> list[float]:
     """The score of the episode of each seed, of a task that ships or one in a match file.
 

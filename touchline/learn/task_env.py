@@ -49,7 +49,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
 
     def __init__(
         self,
-        task: str,
+        task: str | Path,
         *,
         robots: Sequence[str] | None = None,
         parameters: Mapping[str, Parameter] | None = None,

@@ -49,7 +49,7 @@ def rovers(tmp_path: Path) -> Iterator[Callable[..., TaskEnv]]:
     path, made = write_rover_task(tmp_path), []
 
     def make(**settings: Any) -> TaskEnv:
-        made.append(TaskEnv(path, **settings))
+        made.append(TaskEnv(Path(path), **settings))
         return made[-1]
 
     with forgotten_imports(tmp_path):

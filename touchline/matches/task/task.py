@@ -63,7 +63,7 @@ def shipped_tasks() -> list[str]:
     return sorted(file.name.removesuffix(".toml") for file in _SHIPPED.iterdir() if file.name.endswith(".toml"))
 
 
-def load_task(name: str, brain: str | None = None, overrides: Mapping[str, Any] | None = None) -> Task:
+def load_task(name: str | Path, brain: str | None = None, overrides: Mapping[str, Any] | None = None) -> Task:
     """A shipped task by its name, or one of a user from the path of its match file.
 
     Args:
@@ -74,9 +74,11 @@ def load_task(name: str, brain: str | None = None, overrides: Mapping[str, Any] 
     Raises:
         TouchlineError: there is no such task, or its file is invalid or has no table `task`.
     """
-    if not name.endswith(".toml") and name not in (known := shipped_tasks()):
-        raise TouchlineError(f'no task is named "{name}"; give a name or a .toml file; {did_you_mean(name, known)}')
-    path = Path(name) if name.endswith(".toml") else Path(str(_SHIPPED / f"{name}.toml"))
+    path = Path(name)
+    if path.suffix != ".toml":
+        if (name := str(name)) not in (known := shipped_tasks()):
+            raise TouchlineError(f'no task is named "{name}"; give a name or a .toml file; {did_you_mean(name, known)}')
+        path = Path(str(_SHIPPED / f"{name}.toml"))
     config = load_match(path, dict(overrides or {}))
     if config.task is None:
         raise TouchlineError(f'{name} is a match without a score; write [task], and below it score = "module:function"')
