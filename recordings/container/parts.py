@@ -9,6 +9,7 @@ import fcntl
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from shlex import quote
 from typing import BinaryIO
 
 from schemas.errors import TouchlineError
@@ -52,7 +53,7 @@ def create_part(path: Path) -> BinaryIO:
         NotWritableError: there is such a file already, or it cannot be written.
     """
     if not path.parent.exists():
-        folder = path.parent
+        folder = quote(str(path.parent))
         raise NotWritableError(path, f"the folder {folder} does not exist", f"make it with: mkdir -p {folder}")
     try:
         file = path.open("xb")
