@@ -43,7 +43,7 @@ def drill(
 
     Example: touchline drill one_against_keeper --brain simple --seeds 1-50
     """
-    options.need_pybullet()
+    options.need_statistics()
     from touchline.matches.engine.play_list import play_list
 
     settings = {key: value for key, value in {"profile": profile, "rules": rules}.items() if value is not None}

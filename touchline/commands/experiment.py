@@ -2,10 +2,9 @@
 
 from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-from typer.core import TyperGroup
 
 from runtime.process.installed import need
 from schemas.side import Side
@@ -19,25 +18,11 @@ if TYPE_CHECKING:
     from touchline.matches.engine.planned_match import PlannedMatch
 
 NEEDED = ("scipy", "pandas", "pyarrow", "matplotlib")
-_DEFAULT = "run"
 Folder = Annotated[Path, typer.Argument(metavar="FOLDER", help="The folder of a study that was played.")]
-Brains = Annotated[
-    Path | None, typer.Option(metavar="DIR", help="Where brains and functions are looked for; by default as then.")
-]
-
-
-class _StudyGroup(TyperGroup):
-    """A group in which a study file may stand in place of a command: it is run."""
-
-    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Insert the command `run` if none is given."""
-        if args and args[0] not in self.commands and args[0] not in ("-h", "--help"):
-            args = [_DEFAULT, *args]
-        return super().parse_args(ctx, args)
 
 
 app = typer.Typer(
-    cls=_StudyGroup,
+    cls=options.RunGroup,
     no_args_is_help=True,
     help="Answer a question with many matches: `touchline experiment STUDY.toml` plays a study and writes its report."
     "\n\nExample: touchline experiment studies/sides.toml",
@@ -134,8 +119,8 @@ def run(
 @app.command()
 def verify(
     folder: Folder,
-    sample: Annotated[int | None, typer.Option(min=0, help="Simulate only this many matches again.")] = None,
-    brains: Brains = None,
+    sample: options.Sample = None,
+    brains: options.Brains = None,
     jobs: options.Jobs = 0,
     json: options.Json = False,
 ) -> None:
@@ -149,7 +134,9 @@ def verify(
 
 
 @app.command()
-def reproduce(folder: Folder, brains: Brains = None, jobs: options.Jobs = 0, json: options.Json = False) -> None:
+def reproduce(
+    folder: Folder, brains: options.Brains = None, jobs: options.Jobs = 0, json: options.Json = False
+) -> None:
     """Play all matches of a study again and compare the table of results to the byte. Exit status 1 if it differs.
 
     Example: touchline experiment reproduce studies/sides

@@ -7,6 +7,7 @@ import typer
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.shipped_teams import brain_of
+from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
@@ -57,8 +58,7 @@ def series(
 
     Example: touchline series --cyan simple --magenta nubot --rules msl --seeds 1-20 --both-sides
     """
-    options.need_pybullet()
-    options.need_scipy()
+    options.need_statistics()
     from touchline.matches.engine.failures import keep_failures
     from touchline.matches.engine.play_list import play_list
     from touchline.matches.series.match_row import row_of, rows_of
@@ -76,6 +76,9 @@ def series(
     plan = plan_series(
         config, seeds_of(seeds), both_sides=both_sides, brain_folder=file.parent if file else None, record=record
     )
+    for one in plan.matches:
+        if (taken := one.planned.recording) is not None and taken.exists():
+            raise TouchlineError(f"{taken}: already exists; give another folder with --record, or move that one away")
     matches = {one.identity: one for one in plan.matches}
 
     def sentence(planned: "PlannedMatch", outcome: "Outcome") -> str:

@@ -80,8 +80,7 @@ def run(
 
     Example: touchline task run keepaway_3v2 --brain simple --episodes 50 --failures 5
     """
-    options.need_pybullet()
-    options.need_scipy()
+    options.need_statistics()
     from touchline.matches.engine.failures import keep_failures
     from touchline.matches.engine.play_list import play_list
     from touchline.matches.task.episodes import episodes_of, result_of

@@ -18,20 +18,17 @@ if TYPE_CHECKING:
     from touchline.matches.cup.cup_config import CupConfig
     from touchline.matches.cup.cup_state import CupState
 
-VERIFY, DIGEST = "verify", "digest"
+app = typer.Typer(
+    cls=options.RunGroup,
+    no_args_is_help=True,
+    help="Find the best of many teams: `touchline tournament CUP.toml` plays a cup and writes its pages."
+    "\n\nExample: touchline tournament matches/cup.toml",
+)
 
 
-def tournament(
-    file: Annotated[
-        Path,
-        typer.Argument(
-            metavar="CUP.toml | verify | digest", help="The cup file; or verify, and a folder; or digest, and a brain."
-        ),
-    ],
-    folder: Annotated[
-        Path | None,
-        typer.Argument(metavar="[FOLDER | BRAIN]", help="The folder of a cup to verify; a team, as my_team:MyTeam."),
-    ] = None,
+@app.command()
+def run(
+    file: Annotated[Path, typer.Argument(metavar="CUP.toml", help="The cup file.")],
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="The folder of the cup; by default runs/ and its name.")
     ] = None,
@@ -42,39 +39,17 @@ def tournament(
         int | None,
         typer.Option(metavar="MATCHES", help="Add rounds until the order is significant, up to this many matches."),
     ] = None,
-    sample: Annotated[
-        int | None, typer.Option(min=0, help="Of verify: read and simulate only this many matches.")
-    ] = None,
-    brains: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Of verify: where teams are looked for; by default as then.")
-    ] = None,
-    json: Annotated[
-        bool, typer.Option("--json", help="Print the result as one JSON object, and progress as JSON lines on stderr.")
-    ] = False,
+    json: options.Json = False,
 ) -> None:
     """Play a cup between many teams: table, bracket, ratings, and a folder of pages with every match.
 
     Each result is stored at once: after a crash or Ctrl-C, --resume goes on and repeats no finished match. A team that
-    does not start, crashes, hangs or breaks the access rules forfeits. `touchline tournament verify FOLDER` simulates
-    the matches again, and compares digests, results and table. The exit status is 1 if a match has no result, or does
-    not fit. `touchline tournament digest my_team:MyTeam` prints the digest of a team's files.
+    does not start, crashes, hangs or breaks the access rules forfeits. `touchline tournament CUP.toml` is short for
+    this command. The exit status is 1 if a match has no result.
 
-    Example: touchline tournament matches/cup.toml --jobs 2
+    Example: touchline tournament run matches/cup.toml --jobs 2
     """
-    options.need_pybullet()
-    options.need_scipy()
-    if str(file) == VERIFY:
-        if folder is None:
-            raise TouchlineError("verify needs the folder of a cup: touchline tournament verify runs/cup")
-        _verify(folder, jobs, sample, brains, json=json)
-        return
-    if str(file) == DIGEST:
-        if folder is None:
-            raise TouchlineError("digest needs a brain: touchline tournament digest my_team:MyTeam")
-        _print_digest(str(folder))
-        return
-    if folder is not None:
-        raise TouchlineError(f"{folder}: one cup file is enough; use --out for the folder of the cup")
+    options.need_statistics()
     from touchline.matches.cup.run_cup import CupRun
     from touchline.matches.engine.session import session_of
 
@@ -82,15 +57,15 @@ def tournament(
     place = out or Path("runs") / cup.name
     with (
         session_of(cup.title or cup.name, jobs, dask, json=json) as session,
-        closing(CupRun(cup, file.parent.resolve(), place, resume=resume)) as run,
+        closing(CupRun(cup, file.parent.resolve(), place, resume=resume)) as played,
         session.interruptible(),
     ):
-        run.play(session.executor, session.progress, is_remote=session.is_remote)
-    _print(run.state, place, json=json)
+        played.play(session.executor, session.progress, is_remote=session.is_remote)
+    _print(played.state, place, json=json)
     if session.is_interrupted:
         typer.echo(f"interrupted; --resume goes on with the matches that are missing in {place}", err=True)
         raise KeyboardInterrupt
-    if run.state.disturbed or not run.state.is_complete:
+    if played.state.disturbed or not played.state.is_complete:
         raise typer.Exit(FAILED)
 
 
@@ -114,11 +89,13 @@ def _print(state: "CupState", folder: Path, *, json: bool) -> None:
     typer.echo(f"pages  {folder / 'index.html'}")
 
 
-def _print_digest(brain: str) -> None:
-    """Print the digest of the files of a brain in the current directory.
+@app.command()
+def digest(
+    brain: Annotated[str, typer.Argument(metavar="BRAIN", help="Of a team in the current directory: my_team:MyTeam.")],
+) -> None:
+    """Print the digest of a team's files, which a cup file names.
 
-    Raises:
-        TouchlineError: there is no such file.
+    Example: touchline tournament digest my_team.my_team:MyTeam
     """
     from touchline.matches.cup.cup_config import CupConfig, TeamEntry
     from touchline.matches.cup.cup_plan import config_with
@@ -131,7 +108,19 @@ def _print_digest(brain: str) -> None:
     typer.echo(code_digest(config, Side.CYAN, Path.cwd()))
 
 
-def _verify(folder: Path, jobs: int, sample: int | None, brains: Path | None, *, json: bool) -> None:
+@app.command()
+def verify(
+    folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="The folder of a cup that was played.")],
+    sample: options.Sample = None,
+    brains: options.Brains = None,
+    jobs: options.Jobs = 0,
+    json: options.Json = False,
+) -> None:
+    """Check a cup: digests, results, table, and matches simulated again. Exit status 1 if something does not fit.
+
+    Example: touchline tournament verify runs/cup --sample 3
+    """
+    options.need_statistics()
     from touchline.matches.cup.verify_cup import verify_cup
     from touchline.matches.engine.session import session_of
 
@@ -143,6 +132,6 @@ def _verify(folder: Path, jobs: int, sample: int | None, brains: Path | None, *,
         for line in (*verdict.notes, *verdict.faults):
             typer.echo(line)
         faults = counted(len(verdict.faults), "fault") if verdict.faults else "no faults"
-        typer.echo(f"{verdict.simulated} matches simulated again, {verdict.ticks} ticks, {faults}")
+        typer.echo(f"{counted(verdict.simulated, 'match')} simulated again, {verdict.ticks} ticks, {faults}")
     if verdict.faults:
         raise typer.Exit(FAILED)

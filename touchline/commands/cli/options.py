@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from coach_gateway.web.settings import WebSettings
 from recordings.container.key_selection import KeySelection
@@ -60,10 +61,24 @@ Failures = Annotated[
     int, typer.Option(metavar="N", min=0, help="Keep recordings of the N worst matches, and compare their events.")
 ]
 Jobs = Annotated[int, typer.Option(help="Number of matches at a time; 0 for one per core.")]
+Sample = Annotated[int | None, typer.Option(min=0, help="Read and simulate only this many matches.")]
+Brains = Annotated[
+    Path | None, typer.Option(metavar="DIR", help="Where brains and functions are looked for; by default as then.")
+]
 Dask = Annotated[
     str | None,
     typer.Option(metavar="ADDRESS", help="Play on the workers of this Dask scheduler: tcp://192.168.1.5:8786."),
 ]
+
+
+class RunGroup(TyperGroup):
+    """A group in which a file may stand in place of a command: it is run."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Insert the command `run` if none is given."""
+        if args and args[0] not in self.commands and args[0] not in ("-h", "--help"):
+            args = ["run", *args]
+        return super().parse_args(ctx, args)
 
 
 def check_numbers(**given: float | None) -> None:
@@ -150,6 +165,8 @@ def settings_of(changes: list[str]) -> dict[str, Any]:
         key, sign, value = (part.strip() for part in change.partition("="))
         if not sign or not key:
             raise TouchlineError(f'--set is "{change}"; write a key of the match file and its value: radio.loss=0.2')
+        if key == "seed":
+            raise TouchlineError(f"--set {change}: the seeds are those of --seeds; give them there")
         try:
             found[key] = tomllib.loads(f"value = {value}")["value"]
         except tomllib.TOMLDecodeError:
@@ -181,12 +198,13 @@ def need_pybullet() -> None:
         raise TouchlineError(missing_engine_text())
 
 
-def need_scipy() -> None:
-    """Check that this machine can compute intervals: scipy is part of the extra `sim`.
+def need_statistics() -> None:
+    """Check that this machine can simulate and compute intervals: scipy is part of the extra `sim`, too.
 
     Raises:
-        TouchlineError: scipy is missing; the message has the command that installs it.
+        TouchlineError: a package is missing; the message has the command that installs it.
     """
+    need_pybullet()
     need("intervals need scipy, which is not installed", "sim", "scipy")
 
 

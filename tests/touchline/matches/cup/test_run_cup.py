@@ -115,10 +115,10 @@ def test_the_command_reports_a_finished_cup_as_json_and_plays_nothing(undisturbe
     ("arguments", "line"),
     [
         (["none.toml"], "none.toml: No such file or directory; give the path of a cup file"),
-        (["verify"], "verify needs the folder of a cup"),
+        (["verify"], "Missing argument 'FOLDER'"),
+        (["verify", "cup", "--resume"], "No such option: --resume"),  # of `run`: it would have no effect
         (["verify", "nowhere"], "nowhere: has no run.sqlite; give the folder of a run"),
-        (["cup.toml", "other"], "other: one cup file is enough"),
-        (["digest"], "digest needs a brain: touchline tournament digest my_team:MyTeam"),
+        (["cup.toml", "other"], "unexpected extra argument"),
         (["digest", "none:Team"], "none:Team: no file of it is in"),
         (["matches/cup.toml", "--dask", "tcp://127.0.0.1:9", "--jobs", "2"], "leave one out"),
     ],

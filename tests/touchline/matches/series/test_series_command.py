@@ -88,6 +88,7 @@ def test_a_recording_of_each_match_has_the_same_figures_and_can_be_verified(matc
         assert [team["field_distance"] for team in row["teams"]] == [sum(way) for way in ways]
         assert sum(map(sum, ways)) > 0
         assert verify(file).identical
+    assert "seed_3.mcap: already exists; give another folder" in series(match_file, *words).stderr
 
 
 def test_a_key_of_the_match_file_is_replaced(match_file: Path) -> None:
@@ -103,6 +104,7 @@ def test_a_key_of_the_match_file_is_replaced(match_file: Path) -> None:
         (["--seeds", "x"], '--seeds is "x"; write a range'),
         (["--jobs", "-1"], "--jobs is -1; give a number"),
         (["--set", "radio.loss"], '--set is "radio.loss"; write a key'),
+        (["--set", "seed=4"], "--set seed=4: the seeds are those of --seeds"),
         (["--set", "radio.lost=0.2"], "radio.lost is not known"),
         (["--cyan", "simpel"], 'did you mean "simple"'),
         (["--cyan", "few_brains:Nobody"], "few_brains has no Nobody"),
