@@ -1,7 +1,7 @@
 """The keeper: where it stands, what it catches, when it comes out. Pure.
 
 A lob passes under the bar at 0.87 m: a hull that stands on the line is in its way, one that stands half a metre before
-it is not. So the keeper stands on the line, and moves along it. A ball that is too near for a lob it comes to meet.
+it is not. So the keeper stands and moves on the line. A ball too near for a lob it comes to meet, until it is kicked.
 """
 
 import math
@@ -28,11 +28,11 @@ def guard(
     limits: DriveLimits,
     parameters: Parameters,
 ) -> Drive:
-    """Stand where the open angle is halved, nearer to where the holder of the ball points; cross a shot's way; come
-    back round the posts."""
-    nearer = parameters.narrows_within - math.hypot(ball.x + pitch.goal_line, ball.y)
-    out = max(0.0, min(parameters.narrows_most, parameters.narrows * nearer))
-    x = -pitch.goal_line + parameters.on_line + out
+    """Stand where the open angle is halved, nearer to where the holder of the ball points; cross the way of a shot,
+    straight aside once it is kicked; come back round the posts."""
+    out = parameters.narrows * (parameters.narrows_within - math.hypot(ball.x + pitch.goal_line, ball.y))
+    is_kicked = ball.vx < 0.0 and math.hypot(ball.vx, ball.vy) > limits.speed  # no robot drives it that fast
+    x = me.x if is_kicked else -pitch.goal_line + parameters.on_line + max(0.0, min(parameters.narrows_most, out))
     crossing = shot_crossing(ball, x, pitch, reach, parameters)
     y = crossing if crossing is not None else _before_shot(ball, opponents, x, pitch, reach, parameters)
     front = -pitch.goal_line + reach

@@ -15,7 +15,7 @@ from schemas.soccer.game import EventKind
 from sim_host.match.simulation import Simulation
 from touchline.play.play_match import play_match
 
-TEAMS = {"simple": "robot_agent.teams.simple:Simple", "nubot": "robot_agent.teams.nubot:NuBot"}
+TEAMS = {name.lower(): f"robot_agent.teams.{name.lower()}:{name}" for name in ("Simple", "NuBot", "Reference")}
 SCENE = """
 description = "A kicker and a goalkeeper."
 [game]

@@ -118,12 +118,12 @@ def test_the_keeper_comes_out_for_a_slow_ball_that_it_reaches_first(setup, limit
     assert not fetches(me, Ball(-2.0, 0.0), [], rolling, setup.pitch, limits, PARAMETERS, has_area=True)
 
 
-def test_the_keeper_comes_off_its_line_for_a_ball_that_is_too_near_for_a_lob(setup, limits):
+def test_the_keeper_comes_off_its_line_for_a_ball_that_is_too_near_for_a_lob_until_it_is_kicked(setup, limits):
     pitch, reach = setup.pitch, setup.robot.reach
-    on_line = Body(-11.0, 0.0, 0.0)
-    near, far = (guard(on_line, Ball(x, 0.0), [], pitch, reach, limits, PARAMETERS) for x in (-8.8, -6.5))
-    assert near.vx > 0.5
-    assert abs(far.vx) < 0.1
+    balls = Ball(-8.8, 0.0), Ball(-6.5, 0.0), Ball(-8.8, 0.0, -8.0, 2.0)
+    near, far, kicked = (guard(Body(-11.0, 0.0, 0.0), ball, [], pitch, reach, limits, PARAMETERS) for ball in balls)
+    assert abs(far.vx) < 0.1 < 0.5 < near.vx
+    assert abs(kicked.vx) < 0.01 < kicked.vy
 
 
 def test_the_keeper_moves_to_the_side_to_which_the_holder_of_the_ball_points(setup, limits):
