@@ -37,9 +37,9 @@ def outcome_of(plan: MatchPlan, status: int | None, log: Sequence[str]) -> Recor
     if path is None:
         return NO_RECORDING
     parts = parts_of(path)
-    reason = log[-1].removeprefix("touchline: ") if log and status else "it is missing"
-    if status is not None and status < 0:
-        reason = f"the recorder {ending(status)}"
+    reason = f"the recorder {ending(status)}" if status else "it is missing"
+    if status is not None and status > 0 and log:
+        reason = log[-1].removeprefix("touchline: ")
     if status == 0 and parts:
         try:
             return finished_recording(path, losses_of(path, plan))

@@ -53,16 +53,17 @@ def test_a_recording_of_which_nothing_is_left_is_lost() -> None:
 
 
 @pytest.mark.parametrize(
-    ("status", "fault"),
+    ("status", "log", "fault"),
     [
-        (1, "runs/a/match.mcap is lost: disk full;"),
-        (-signal.SIGKILL, "runs/a/match.mcap is lost: the recorder was ended by SIGKILL;"),
-        (0, "runs/a/match.mcap is lost: it is missing;"),
+        (1, ["touchline: disk full"], "runs/a/match.mcap is lost: disk full;"),
+        (1, [], "runs/a/match.mcap is lost: the recorder ended with status 1;"),  # its log was on the full disk
+        (-signal.SIGKILL, ["a line"], "runs/a/match.mcap is lost: the recorder was ended by SIGKILL;"),
+        (0, ["a line"], "runs/a/match.mcap is lost: it is missing;"),
     ],
 )
-def test_what_a_recorder_ended_with_is_the_reason(status: int, fault: str) -> None:
+def test_what_a_recorder_ended_with_is_the_reason(status: int, log: list[str], fault: str) -> None:
     plan = MatchPlan(load_match(None), None, PATH.parent, PATH)
-    assert fault in outcome_of(plan, status, ["touchline: disk full"]).fault
+    assert fault in outcome_of(plan, status, log).fault
 
 
 def test_a_recording_that_ends_before_the_match_is_not_called_whole(tmp_path: Path) -> None:
