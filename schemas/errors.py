@@ -26,7 +26,7 @@ def os_errors(what: object, remedy: str) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        raise TouchlineError(f"{what or error.filename}: {error.strerror or error}; {remedy}") from None
+        raise TouchlineError(f"{what or error.filename or 'a file'}: {error.strerror or error}; {remedy}") from None
 
 
 def did_you_mean(word: object, known: Iterable[str]) -> str:

@@ -1,3 +1,4 @@
+import errno
 import re
 import socket
 import sys
@@ -12,7 +13,7 @@ from recordings.recorder.settings import RecorderSettings
 from robot_agent.process.settings import AgentSettings
 from schemas.config.match_config import load_match
 from schemas.config.settings import RecordOptions
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, os_errors
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
 from support.stepped_clock import SteppedClock
@@ -167,6 +168,12 @@ def test_two_runs_of_one_second_get_different_folders(tmp_path: Path, monkeypatc
         "runs/friendly-19700101T000000Z-seed7-2",
     ]
     assert first.recording == first.folder / "match.mcap"
+
+
+def test_a_fault_of_the_system_that_names_no_file_is_one_of_a_file() -> None:
+    fault = "a file: No space left on device; host needs it"
+    with pytest.raises(TouchlineError, match=fault), os_errors(None, "host needs it"):
+        raise OSError(errno.ENOSPC, "No space left on device")
 
 
 def test_a_link_to_a_disk_that_is_not_there_is_no_folder_for_runs(
