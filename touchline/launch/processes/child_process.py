@@ -43,6 +43,8 @@ class ChildProcess:
         """
         self.process, self.log = process, folder / f"{process.name}.log"
         self._status: int | None = None
+        self._is_given_up = False
+        """It could not be killed, and nobody waits for it any more."""
         self._core_wait = 0.0
         _write_files_of(process)
         with self.log.open("ab") as out:
@@ -71,7 +73,7 @@ class ChildProcess:
                 self._signal_group(signal.SIGKILL)  # ends its descendants, too
                 if self.process.confinement is not None:
                     self.process.confinement.remove_empty_folder()
-        return self._status
+        return -signal.SIGKILL if self._status is None and self._is_given_up else self._status
 
     def send(self, number: signal.Signals) -> None:
         """Send a signal to the process group, unless the process has ended; in bubblewrap, to all within."""
@@ -117,6 +119,8 @@ class ChildProcess:
             os.killpg(self.pid, number)
         except ProcessLookupError:
             return  # no process of the group is left
+        except PermissionError:  # it runs as another user, as by sudo, and ends when its host is gone
+            self._is_given_up = number == signal.SIGKILL
 
 
 def _write_files_of(process: Process) -> None:

@@ -131,6 +131,22 @@ def test_who_waits_for_a_robot_sleeps_until_the_time_is_over(launch: Launch) -> 
     assert clock.now() == pytest.approx(0.5, abs=0.1)
 
 
+def test_a_robot_that_runs_as_another_user_is_left_alone(launch: Launch, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: int) -> None:
+        raise PermissionError
+
+    launched = launch(python("import time; time.sleep(600)"))
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "killpg", refuse)
+        launched.send(signal.SIGTERM)
+        assert launched.status() is None
+        launched.send(signal.SIGKILL)
+        assert launched.status() == -signal.SIGKILL
+    os.killpg(launched.pid, signal.SIGKILL)
+    os.waitid(os.P_PID, launched.pid, os.WEXITED | os.WNOWAIT)
+    assert launched.status() == -signal.SIGKILL
+
+
 def test_what_a_terminal_would_obey_is_not_shown(launch: Launch) -> None:
     launched = launch(python(r"print('\x1b]0;owned\x07\x1b[2Jgone')"))
     assert end_of(launched) == 0
