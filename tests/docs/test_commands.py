@@ -18,8 +18,7 @@ def test_every_command_has_an_example_that_can_be_typed_in_its_help(name: str) -
 
 
 @pytest.mark.parametrize(
-    "line",
-    ["touchline mtach", "touchline coach order cyan --mood hold", "touchline coach order cyan --mode hodl"],
+    "line", ["touchline mtach", "touchline coach order cyan --mood hold", "touchline coach order cyan --mode hodl"]
 )
 def test_a_command_an_option_or_a_choice_that_is_not_there_is_found(line: str) -> None:
     assert fault(line) is not None

@@ -151,10 +151,7 @@ def test_its_example_of_two_bodies_is_played_driven_recorded_and_drawn_as_typed(
     match, agent, record = (line.split()[1:] for line in typed if line.startswith("touchline"))
     folder = tmp_path / typed[1].removeprefix("cd ")
     _run(match, tmp_path)
-    with (
-        running([*agent, "--listen", endpoint, "--patience", "60"], folder),
-        running(record, folder),
-    ):
+    with running([*agent, "--listen", endpoint, "--patience", "60"], folder), running(record, folder):
         deadline = time.monotonic() + 60.0
         while not (folder / "run.mcap").exists() and time.monotonic() < deadline:
             time.sleep(0.1)

@@ -32,8 +32,7 @@ MODULES = {
 
 
 @pytest.mark.parametrize(
-    "moment",
-    [pytest.param(moment, marks=pytest.mark.long if "simulation" in moment else ()) for moment in MODULES],
+    "moment", [pytest.param(moment, marks=pytest.mark.long if "simulation" in moment else ()) for moment in MODULES]
 )
 def test_ctrl_c_during_the_start_ends_the_match_without_a_traceback(moment: str, tmp_path: Path) -> None:
     (tmp_path / "sitecustomize.py").write_text(INTERRUPTING.format(module=MODULES[moment]))

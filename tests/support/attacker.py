@@ -150,9 +150,7 @@ def histories(session: zenoh.Session, prefix: str, until: float) -> None:
 def subscriptions(session: zenoh.Session, prefix: str, until: float) -> None:
     """Subscriptions that come and go."""
     _paced(
-        until,
-        3000,
-        lambda n: session.declare_subscriber(f"{prefix}world/robot{n % 500}", lambda _: None).undeclare(),
+        until, 3000, lambda n: session.declare_subscriber(f"{prefix}world/robot{n % 500}", lambda _: None).undeclare()
     )
 
 
@@ -160,9 +158,7 @@ def fake_batches(session: zenoh.Session, prefix: str, until: float) -> None:
     """Record batches of nobody's, with sequence numbers far ahead."""
     payload = b'{"stream":1,"number":999999,"tick":999999,"sent_ns":1}\n'
     _paced(
-        until,
-        500,
-        lambda n: session.put(f"{prefix}host/record_batch", payload, attachment=STAMP.pack(10**9 + n, 0, 0)),
+        until, 500, lambda n: session.put(f"{prefix}host/record_batch", payload, attachment=STAMP.pack(10**9 + n, 0, 0))
     )
 
 
@@ -349,10 +345,7 @@ CONTROLS: dict[str, Attack] = {"burn": partial(flood, key="nobody")}
 def user_of(path: str | Path) -> dict[str, str]:
     """The settings with which an account connects, by its file."""
     account = json.loads(Path(path).read_text())
-    return {
-        "transport/auth/usrpwd/user": account["user"],
-        "transport/auth/usrpwd/password": account["password"],
-    }
+    return {"transport/auth/usrpwd/user": account["user"], "transport/auth/usrpwd/password": account["password"]}
 
 
 def main() -> None:

@@ -29,10 +29,7 @@ class Cluster:
     def _start(self, kind: str, *options: str) -> subprocess.Popen[bytes]:
         with (self._folder / f"{kind}-{len(self._programs)}.log").open("wb") as log:
             program = subprocess.Popen(
-                [sys.executable, "-m", "dask", kind, *options],
-                cwd=self._folder,
-                stdout=log,
-                stderr=log,
+                [sys.executable, "-m", "dask", kind, *options], cwd=self._folder, stdout=log, stderr=log
             )
         self._programs.append(program)
         return program

@@ -28,10 +28,7 @@ LOOK_S = 0.001
 """Wall time that passes in each poll of a waiting host."""
 REPORT_NS = 50_000_000
 """Wall time between two reports of a recorder that has nothing new to report."""
-TEAMS = {
-    "cyan": {"name": "Cyan", "robots": ["cyan1", "cyan2"]},
-    "magenta": {"name": "Magenta", "robots": ["magenta1"]},
-}
+TEAMS = {"cyan": {"name": "Cyan", "robots": ["cyan1", "cyan2"]}, "magenta": {"name": "Magenta", "robots": ["magenta1"]}}
 """Two robots against one; all drive ahead."""
 
 

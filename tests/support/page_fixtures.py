@@ -16,12 +16,7 @@ from schemas.messages.soccer.game import ActionReply, GameEvent, RefereeAction
 from schemas.side import Side
 from schemas.soccer.game import ActionName
 from schemas.topic import Topic
-from schemas.topics import (
-    ACTION,
-    PARAMETERS,
-    REPLAY_CONTROL,
-    SCENE,
-)
+from schemas.topics import ACTION, PARAMETERS, REPLAY_CONTROL, SCENE
 from support.fake_host import Answer, FakeHost
 from support.in_process_bus import SharedState
 from support.page_gateway import SOON, Gateway, tokens_in
@@ -96,10 +91,7 @@ def gateway_of(medium: SharedState, tokens: Path, ending_gateways: list[Gateway]
     made: list[Gateway] = []
 
     def make(
-        shown: SharedState | None = medium,
-        tokens_file: Path | None = tokens,
-        result: Path | None = None,
-        **words: Any,
+        shown: SharedState | None = medium, tokens_file: Path | None = tokens, result: Path | None = None, **words: Any
     ) -> Gateway:
         made.append(Gateway(shown, WebSettings(**{"port": 0, **words}), tokens_file, result))
         return made[-1]

@@ -40,11 +40,7 @@ class RefereeRig:
         self.mirrored = mirrored
         self.roster = Roster.of(
             load_match(
-                None,
-                {
-                    "teams.magenta.types": magenta_types or {},
-                    **{f"teams.{side}.size": size for side in Side},
-                },
+                None, {"teams.magenta.types": magenta_types or {}, **{f"teams.{side}.size": size for side in Side}}
             ),
             chosen,
         )

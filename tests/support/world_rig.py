@@ -19,11 +19,7 @@ REST = AppliedInput(Drive(), dribble=False)
 
 
 def tell(
-    vx: float = 0.0,
-    vy: float = 0.0,
-    omega: float = 0.0,
-    dribble: bool = False,
-    kick: tuple[str, float] | None = None,
+    vx: float = 0.0, vy: float = 0.0, omega: float = 0.0, dribble: bool = False, kick: tuple[str, float] | None = None
 ) -> AppliedInput:
     """An input; a kick as (mode, speed)."""
     wish = Kick(mode=KickMode(kick[0]), speed=kick[1]) if kick else None

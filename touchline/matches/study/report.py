@@ -23,11 +23,7 @@ from touchline.matches.study.study_plan import StudyPlan
 
 
 def report_of(
-    plan: StudyPlan,
-    table: pd.DataFrame,
-    seeds: Sequence[int],
-    failed: Sequence[Failed],
-    versions: Mapping[str, object],
+    plan: StudyPlan, table: pd.DataFrame, seeds: Sequence[int], failed: Sequence[Failed], versions: Mapping[str, object]
 ) -> str:
     """The report as one page."""
     study, groups = plan.study, compared(plan, table)

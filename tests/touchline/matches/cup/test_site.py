@@ -47,9 +47,7 @@ def ended(slot: Slot) -> Ended | None:
 
 def state(kind: FormatKind = FormatKind.GROUPS) -> CupState:
     cup = CupConfig(
-        title="A & B",
-        teams=[TeamEntry(name=name, brain="simple") for name in NAMES],
-        format=FormatConfig(kind=kind),
+        title="A & B", teams=[TeamEntry(name=name, brain="simple") for name in NAMES], format=FormatConfig(kind=kind)
     )
     return state_of(cup, ended)
 

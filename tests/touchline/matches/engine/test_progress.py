@@ -75,14 +75,7 @@ def test_as_json_each_match_is_one_object(capsys: pytest.CaptureFixture[str]) ->
     first, second = map(json.loads, captured.err.splitlines())
     assert captured.out == ""
     assert first.pop("remaining") >= 0.0
-    assert first == {
-        "done": 1,
-        "total": 2,
-        "running": 1,
-        "failed": 0,
-        "match": "one: 1 : 0",
-        "match_failed": False,
-    }
+    assert first == {"done": 1, "total": 2, "running": 1, "failed": 0, "match": "one: 1 : 0", "match_failed": False}
     assert second["match_failed"] and second["failed"] == 1 and second["running"] == 0
 
 

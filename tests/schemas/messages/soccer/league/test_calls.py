@@ -39,11 +39,7 @@ def restart(phase: Phase, side: Side | None, **content: Any) -> GameState:
             restart(Phase.KICK_OFF, Side.CYAN),
             ["FIRST_HALF", "KICKOFF cyan"],
         ),
-        (
-            restart(Phase.KICK_OFF, Side.CYAN),
-            restart(Phase.KICK_OFF, Side.CYAN, running=True),
-            ["START"],
-        ),
+        (restart(Phase.KICK_OFF, Side.CYAN), restart(Phase.KICK_OFF, Side.CYAN, running=True), ["START"]),
         (restart(Phase.CORNER, Side.CYAN, running=True), state(), []),
         (state(), stopped(), ["STOP"]),
         (state(), stopped(score=Score(magenta=1)), ["STOP", "GOAL magenta"]),
