@@ -111,6 +111,7 @@ def _run(call: Callable[[Path], Any], folder: Path) -> Any:
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # the programs that it starts have it
     threading.Thread(target=_end_with_parent, daemon=True).start()
     os.dup2(2, 1)  # what brains print is no part of the result
+    os.environ.setdefault("PYTHONBREAKPOINT", "0")  # nobody is at its terminal
     return call(folder)
 
 

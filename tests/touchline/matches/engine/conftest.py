@@ -38,6 +38,12 @@ class Raises(Still):
         return super().act(sight)
 
 
+class Breaks(Still):
+    def act(self, sight):
+        breakpoint()
+        return super().act(sight)
+
+
 class CatchesAll(Still):
     def act(self, sight):
         while sight.tick == 10:

@@ -95,6 +95,10 @@ def test_a_match_that_a_team_cannot_play_has_failed_by_its_fault(
     assert "planned_brains.py" in Path(outcome.evidence).read_text()
 
 
+def test_a_breakpoint_is_skipped_as_in_every_process_without_a_terminal(match_of: MatchOf, folder: Path) -> None:
+    assert isinstance(in_fresh_process(PlannedMatch(match_of("Breaks"), brain_folder=folder)), Played)
+
+
 def test_a_brain_that_does_not_answer_is_named_with_its_stack(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
     """Also one that catches every exception, that holds the interpreter's lock, or that is never built."""
     hung, silent = FailureKind.HUNG, "cyan1: no answer within 0.5 s"
