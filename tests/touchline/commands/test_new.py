@@ -33,9 +33,9 @@ def test_a_new_team_plays_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 
 @pytest.mark.slow
 def test_its_own_tests_pass(tmp_path: Path) -> None:
-    assert run.invoke(app, ["new", "my_team", "--in", str(tmp_path)]).exit_code == 0
+    assert run.invoke(app, ["new", "red_lions", "--in", str(tmp_path)]).exit_code == 0
     words = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
-    done = subprocess.run(words, capture_output=True, text=True, cwd=tmp_path / "my_team")
+    done = subprocess.run(words, capture_output=True, text=True, cwd=tmp_path / "red_lions")
     assert done.returncode == 0, done.stdout
 
 
