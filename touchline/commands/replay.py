@@ -141,6 +141,8 @@ def replay(
     from touchline.launch.replay_run import run_replay
 
     options.check_numbers(rate=rate, behind=behind)
+    if fast and rate != 1.0:
+        raise TouchlineError(f"--fast and --rate {rate:g} are two speeds; give one of them")
     settings = ReplaySettings(
         files[0],
         start=start,

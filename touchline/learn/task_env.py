@@ -73,6 +73,8 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         Raises:
             TouchlineError: there is no such task, robot or kind of observation, or the match file is invalid.
         """
+        if overrides and "seed" in overrides:
+            raise TouchlineError("overrides name the seed, which each episode has its own; give it to reset(seed=…)")
         plain = load_task(task, overrides=overrides)
         known = [*SETTINGS, *plain.config.team(plain.side).parameters]
         if wrong := [name for name in parameters or {} if name not in known]:

@@ -261,6 +261,7 @@ def test_a_recording_ends_with_the_next_reset(rovers: Callable[..., TaskEnv], tm
         ({"parameters": {"corrects": "rover_tally:Stil"}}, 'did you mean "Still"?'),
         ({"parameters": {"corrects": "rover_tally:Still"}, "advice": True}, "there is no advice on corrections"),
         ({"overrides": {"duratoin": 3}}, "duration"),
+        ({"overrides": {"seed": 3}}, "give it to reset(seed=…)"),
     ],
 )
 def test_wrong_settings_are_one_clear_error(rovers: Callable[..., TaskEnv], settings: Any, said: str) -> None:
