@@ -132,36 +132,28 @@ def test_an_mcap_file_of_another_program_is_not_a_recording_of_a_match(tmp_path)
         open_recording(path)
 
 
-def test_a_recording_of_a_other_major_version_is_refused_with_the_versions(recorded, tmp_path):
-    path = tmp_path / "newer.mcap"
-    metadata = open_mcap_file(recorded.path).metadata[MANIFEST]
+def with_manifest(recorded, path, **changes):
+    """A file with nothing but the manifest of a recording, changed."""
     with path.open("wb") as file:
         writer = Writer(file)
         writer.start()
-        writer.add_metadata("manifest", sealed({**metadata, "contract": "3.1"}))
+        writer.add_metadata("manifest", sealed({**open_mcap_file(recorded.path).metadata[MANIFEST], **changes}))
         writer.finish()
+    return path
+
+
+def test_a_recording_of_another_major_version_is_refused_with_the_versions(recorded, tmp_path):
+    path = with_manifest(recorded, tmp_path / "newer.mcap", contract="3.1")
     with pytest.raises(TouchlineError, match=r"version 3\.1, this program reads 2\.0"):
         open_recording(path)
 
 
 def test_a_manifest_that_began_at_no_time_is_damaged(recorded, tmp_path):
-    path = tmp_path / "forged.mcap"
-    metadata = open_mcap_file(recorded.path).metadata[MANIFEST]
-    with path.open("wb") as file:
-        writer = Writer(file)
-        writer.start()
-        writer.add_metadata("manifest", sealed({**metadata, "started": "yesterday"}))
-        writer.finish()
+    path = with_manifest(recorded, tmp_path / "forged.mcap", started="yesterday")
     with pytest.raises(TouchlineError, match=r"damaged: Invalid isoformat string: 'yesterday'"):
         open_recording(path)
 
 
 def test_what_a_later_version_added_to_the_manifest_is_passed_over(recorded, tmp_path):
-    path = tmp_path / "newer.mcap"
-    metadata = open_mcap_file(recorded.path).metadata[MANIFEST]
-    with path.open("wb") as file:
-        writer = Writer(file)
-        writer.start()
-        writer.add_metadata("manifest", sealed({**metadata, "weather": "rain", "attached": "{}"}))
-        writer.finish()
+    path = with_manifest(recorded, tmp_path / "newer.mcap", weather="rain", attached="{}")
     assert open_recording(path).manifest == recorded.manifest.replace(attached={})
