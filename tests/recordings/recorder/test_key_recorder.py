@@ -38,7 +38,7 @@ def record(tmp_path: Path) -> Iterator[Record]:
         with open_network("keys", WallClock(), network.endpoint, None) as bus:
             recorder = KeyRecorder(bus, tmp_path / "log.mcap", keys.split(), selection)
             deadline = monotonic() + LIMIT
-            network.wait_for_subscriber(keys.split()[-1].replace("**", "robot1"))
+            network.wait_for_subscriber(keys.split()[-1].replace("**", "robot2"))  # a key of the last expression alone
             put(network.session)
             return recorder.run(lambda: recorder.messages >= count or monotonic() > deadline)
 
