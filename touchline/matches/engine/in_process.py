@@ -100,7 +100,7 @@ def outcome_of_death(planned: PlannedMatch, error: DiedProcessError) -> Failed:
     """
     robot, stack = error.note.acting, error.note.stack
     sides = sides_of(planned, robot)
-    ended_itself = 0 < error.status < _UNKNOWN_STATUS or -error.status in _OWN_SIGNALS
+    ended_itself = 0 <= error.status < _UNKNOWN_STATUS or -error.status in _OWN_SIGNALS
     if not sides or not (stack or ended_itself):
         return Failed(planned.identity, FailureKind.WORKER, str(error))
     if not stack:

@@ -177,7 +177,7 @@ def test_a_process_that_is_slow_while_no_brain_has_control_is_nobodys_fault(matc
         (1, FailureKind.CRASHED),
         (254, FailureKind.CRASHED),
         (255, FailureKind.WORKER),
-        (0, FailureKind.WORKER),
+        (0, FailureKind.CRASHED),
         (-signal.SIGSEGV, FailureKind.CRASHED),
         (-signal.SIGXCPU, FailureKind.CRASHED),
         (-signal.SIGKILL, FailureKind.WORKER),

@@ -168,7 +168,7 @@ def test_a_finished_match_is_not_played_again(matches: Matches, tmp_path: Path) 
 @pytest.mark.parametrize(
     ("brain", "kind", "culprits", "reason"),
     [
-        ("Dies", FailureKind.CRASHED, (Side.MAGENTA,), "magenta1: its process ended with status 7"),
+        ("Dies", FailureKind.CRASHED, (Side.MAGENTA,), "magenta1: its process ended with status 0"),
         ("IsKilled", FailureKind.WORKER, (), "its process was ended by SIGKILL"),
     ],
 )
