@@ -108,6 +108,7 @@ def _in_process(context: ForkServerContext, name: str) -> "Callable[..., Future[
 
 def _run(call: Callable[[Path], Any], folder: Path) -> Any:
     """What the process does."""
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # pebble has it exit by itself, which would be a team's fault
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # the programs that it starts have it
     threading.Thread(target=_end_with_parent, daemon=True).start()
     os.dup2(2, 1)  # what brains print is no part of the result

@@ -66,9 +66,9 @@ class HangsAtFirst(Still):
         time.sleep(60.0)
 
 
-class IsKilled(Still):
+class IsTerminated(Still):
     def act(self, sight):
-        os.kill(os.getpid(), signal.SIGKILL)
+        os.kill(os.getpid(), signal.SIGTERM)
 
 
 class Dies(Still):

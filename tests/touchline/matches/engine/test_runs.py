@@ -169,7 +169,7 @@ def test_a_finished_match_is_not_played_again(matches: Matches, tmp_path: Path) 
     ("brain", "kind", "culprits", "reason"),
     [
         ("Dies", FailureKind.CRASHED, (Side.MAGENTA,), "magenta1: its process ended with status 0"),
-        ("IsKilled", FailureKind.WORKER, (), "its process was ended by SIGKILL"),
+        ("IsTerminated", FailureKind.WORKER, (), "its process was ended by SIGTERM"),
     ],
 )
 def test_a_match_whose_process_ends_costs_itself_alone(
