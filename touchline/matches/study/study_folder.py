@@ -10,10 +10,12 @@ from typing import Any
 import pandas as pd
 from pydantic import ValidationError
 
+from runtime.process.whole_file import written_whole
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError, os_errors
 from touchline.matches.study.cells import Cell
 from touchline.matches.study.digests import as_text, file_digest
+from touchline.matches.study.result_table import KEYS
 from touchline.matches.study.study_config import Study
 from touchline.matches.study.study_plan import RECORDINGS, StudyPlan
 
@@ -45,9 +47,10 @@ def write_plan(folder: Path, plan: StudyPlan) -> None:
         "cells": [{"levels": dict(cell.levels), "config": cell.config.model_dump(mode="json")} for cell in plan.cells],
     }
     text, path = as_text(content), folder / PLAN
-    if path.exists() and json.loads(path.read_text("utf-8"))["cells"] != json.loads(text)["cells"]:
+    if path.exists() and _json(path).get("cells") != json.loads(text)["cells"]:
         raise TouchlineError(f"{folder} has the results of another plan; give another folder with --out, or remove it")
-    path.write_text(text, "utf-8")
+    with written_whole(path) as draft:
+        draft.write_text(text, "utf-8")
 
 
 def read_plan(folder: Path) -> StudyPlan:
@@ -93,20 +96,24 @@ def read_study(folder: Path) -> StoredStudy:
     Raises:
         TouchlineError: a part of it is missing or invalid.
     """
-    plan = read_plan(folder)
-    digests = _json(folder / DIGESTS)
+    plan, digests = read_plan(folder), _json(folder / DIGESTS)
     try:
         with os_errors(folder / CSV, "run the study to its end, which writes it"):
             table = pd.read_csv(folder / CSV)
     except ValueError as error:
         raise TouchlineError(f"{folder / CSV}: no table ({error}); run the study again, which writes it") from None
+    missing = [f"{DIGESTS}: {name}" for name in ("seeds", "code", "files") if name not in digests]
+    missing += [f"{CSV}: {name}" for name in KEYS if name not in table]
+    if missing:
+        raise TouchlineError(f"{folder / missing[0]} is missing; run the study again, which writes it")
     return StoredStudy(folder, plan, digests["seeds"], table, digests)
 
 
 def _json(path: Path) -> dict[str, Any]:
     try:
         with os_errors(path, "give the folder of a study that was played"):
-            content: dict[str, Any] = json.loads(path.read_text("utf-8"))
-    except ValueError as error:
-        raise TouchlineError(f"{path}: not JSON: {error}") from None
-    return content
+            return dict(json.loads(path.read_text("utf-8")))
+    except (ValueError, TypeError) as error:
+        raise TouchlineError(
+            f"{path}: no JSON object ({error}); use another copy, or remove it and run the study again"
+        ) from None

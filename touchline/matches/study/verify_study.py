@@ -96,9 +96,9 @@ def _rows(
     stored: StoredStudy, matches: Iterable[SeedMatch], *, from_recordings: bool
 ) -> Iterator[tuple[str, ResultRow]]:
     """The identities of the matches that have a row, and what it says."""
-    known = set(stored.table["identity"])
+    known = set(zip(stored.table["identity"], stored.table["swapped"], strict=True))
     for match in matches:
-        if match.identity not in known:
+        if (match.identity, match.swapped) not in known:
             continue
         row, path = _row(stored.table, match), recording_name(match.identity)
         goals = pd.to_numeric(pd.Series([row.get(f"{team}.goals") for team in (FIRST, SECOND)]), errors="coerce")
@@ -120,8 +120,11 @@ def _file_faults(stored: StoredStudy, unread: Container[str]) -> Iterator[str]:
 def _table_faults(stored: StoredStudy) -> Iterator[str]:
     """CSV and Parquet have the same values, and each row is of a match of the plan."""
     path = stored.folder / PARQUET
-    if path.exists() and csv_bytes(pd.read_parquet(path)) != (stored.folder / CSV).read_bytes():
-        yield f"{PARQUET} and {CSV} have different values"
+    try:
+        if path.exists() and csv_bytes(pd.read_parquet(path)) != (stored.folder / CSV).read_bytes():
+            yield f"{PARQUET} and {CSV} have different values"
+    except Exception:  # whatever pandas and pyarrow make of it
+        yield f"{PARQUET} is damaged"
     planned = {match.identity for match in stored.plan.matches(stored.seeds)}
     for row in stored.table.itertuples():
         if row.identity not in planned:

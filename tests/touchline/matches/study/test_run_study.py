@@ -61,6 +61,9 @@ def test_a_folder_with_the_results_of_another_plan_is_left_alone(
         with pytest.raises(TouchlineError, match="another process plays this run"):
             run(SHORT, fresh=True)
         assert len(store.outcomes()) == 4
+    (home / "plan.json").write_text("{")
+    with pytest.raises(TouchlineError, match=r"plan\.json: no JSON object"):
+        run(SHORT, fresh=fresh)
 
 
 def test_seeds_are_added_until_the_interval_is_narrow_or_the_budget_is_spent(run: Run, home: Path) -> None:

@@ -122,10 +122,30 @@ def test_a_row_that_was_taken_out_of_the_table_is_missed(played: Path, home: Pat
     assert "cell 2, seed 1: has no result, and was played to its end again" in check(home)
 
 
-@pytest.mark.parametrize(("content", "why"), [(None, "No such file or directory; run"), ("", "no table (No columns")])
-def test_a_table_that_is_gone_or_none_is_one_line(played: Path, home: Path, content: str | None, why: str) -> None:
-    (home / "results.csv").unlink()
+@pytest.mark.parametrize(
+    ("name", "content", "why"),
+    [
+        ("results.csv", None, "No such file or directory; run"),
+        ("results.csv", "", "no table (No columns"),
+        ("results.csv", "cell,seed\n1,1\n", "swapped is missing; run"),
+        ("digests.json", "{}", "seeds is missing; run"),
+        ("plan.json", '{"cells": ', "no JSON object (Expecting value"),
+    ],
+)
+def test_a_file_that_is_gone_or_none_is_one_line(
+    played: Path, home: Path, name: str, content: str | None, why: str
+) -> None:
+    (home / name).unlink()
     if content is not None:
-        (home / "results.csv").write_text(content)
-    with pytest.raises(TouchlineError, match=rf"^{re.escape(f'{home}/results.csv: {why}')}"):
+        (home / name).write_text(content)
+    with pytest.raises(TouchlineError, match=rf"^{re.escape(f'{home / name}: {why}')}"):
         verdict_of(home)
+
+
+def test_a_damaged_table_and_a_row_of_the_other_side_are_named(played: Path, home: Path) -> None:
+    (home / "results.parquet").write_bytes((home / "results.parquet").read_bytes()[:3000])
+    text = (home / "results.csv").read_text()
+    (home / "results.csv").write_text(text.replace(",False,", ",True,", 1))
+    faults = check(home)
+    assert "results.parquet is damaged" in faults
+    assert "cell 1, seed 1: has no result, and was played to its end again" in faults
