@@ -1,12 +1,13 @@
 """What a command plays its matches with: an executor that its options ask for, progress on stderr, and Ctrl-C."""
 
 import signal
+import sqlite3
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from schemas.errors import TouchlineError
+from schemas.errors import MatchFailedError, TouchlineError
 from touchline.matches.engine.dask_cluster import dask_cluster
 from touchline.matches.engine.fresh_process import FreshProcesses, cores
 from touchline.matches.engine.progress import ProgressDisplay, progress_of
@@ -25,12 +26,18 @@ class Session:
 
     @contextmanager
     def interruptible(self) -> Iterator[None]:
-        """Ctrl-C or SIGTERM ends the block without an exception, and is noted."""
+        """Ctrl-C or SIGTERM ends the block without an exception, and is noted.
+
+        Raises:
+            MatchFailedError: something cannot be written, as on a full disk.
+        """
         before = signal.signal(signal.SIGTERM, signal.default_int_handler)
         try:
             yield
         except KeyboardInterrupt:
             self.is_interrupted = True
+        except (OSError, sqlite3.Error) as error:
+            raise MatchFailedError(f"{error}; mend that, and go on: no stored result is lost") from None
         finally:
             signal.signal(signal.SIGTERM, before)
 

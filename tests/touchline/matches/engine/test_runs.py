@@ -4,6 +4,7 @@ import multiprocessing
 import os
 import random
 import signal
+import sqlite3
 import sys
 import threading
 import time
@@ -18,7 +19,7 @@ from typing import Any
 import pytest
 
 from schemas.config.match_config import MatchConfig
-from schemas.errors import TouchlineError
+from schemas.errors import MatchFailedError, TouchlineError
 from schemas.side import Side
 from touchline.matches.engine.code_digest import code_digest
 from touchline.matches.engine.fresh_process import DiedProcessError, FreshProcesses
@@ -26,6 +27,7 @@ from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Playe
 from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.run import run_plan
+from touchline.matches.engine.session import session_of
 from touchline.matches.engine.store import RunStore
 from touchline.matches.engine.verify import Depth, check_match, sampled, verify_run
 
@@ -334,6 +336,13 @@ def test_a_folder_that_holds_no_run_is_neither_read_nor_written_over(tmp_path: P
     with pytest.raises(TouchlineError, match="cannot be used for a run"):
         RunStore(tmp_path)
     assert (tmp_path / "run.sqlite").read_text().startswith("notes of a user")
+
+
+@pytest.mark.parametrize("error", [OSError(28, "No space left on device"), sqlite3.OperationalError("disk is full")])
+def test_a_full_disk_ends_a_run_with_one_line(error: Exception) -> None:
+    lost = pytest.raises(MatchFailedError, match="no stored result is lost")
+    with session_of("cup", 1) as session, lost, session.interruptible():
+        raise error
 
 
 def test_equal_matches_in_a_plan_are_refused(matches: Matches) -> None:
