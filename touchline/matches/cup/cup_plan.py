@@ -6,6 +6,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from pydantic import ValidationError
+
 from schemas.config.config_model import ConfigModel
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig, TeamConfigs
@@ -119,11 +121,18 @@ class _Begun(ConfigModel):
 
 
 def stored_plan(store: RunStore) -> CupPlan | None:
-    """The plan of the cup of a folder; None before it has begun."""
-    text = store.document(_DOCUMENT)
-    if text is None:
+    """The plan of the cup of a folder; None before it has begun.
+
+    Raises:
+        TouchlineError: it is damaged, or of another version of this program.
+    """
+    if (text := store.document(_DOCUMENT)) is None:
         return None
-    begun = _Begun.model_validate_json(text)
+    try:
+        begun = _Begun.model_validate_json(text)
+    except ValidationError as error:
+        what = " ".join(str(error).split())[:200]
+        raise TouchlineError(f"{store.folder}: its cup is damaged, or of another version: {what}") from None
     return CupPlan(begun.cup, begun.code_folder, store.folder, begun.digests, begun.files)
 
 

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -106,9 +106,9 @@ def _code_checks(plan: CupPlan) -> tuple[list[str], list[str]]:
 def _table_faults(state: CupState, folder: Path) -> Iterator[str]:
     """What differs between the published result and the one that follows from the matches."""
     try:
-        published = json.loads((folder / RESULT).read_text("utf-8"))
+        published = dict(json.loads((folder / RESULT).read_text("utf-8")))
         page = (folder / "index.html").read_text("utf-8")
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, TypeError) as error:
         yield f"{RESULT}: {error}; play the cup with --resume, which writes it again"
         return
     found: dict[str, Any] = json.loads(json.dumps(report_of(state)))
@@ -126,8 +126,8 @@ def _difference(part: str, published: Any, found: Any) -> str:
         for one, other in zip(published, found, strict=True):
             if one != other:
                 return f"match {other['match']} is not the stored one"
-    if part == "tables" and isinstance(published, dict):
-        for stage, rows in found.items():
+    with suppress(AttributeError, TypeError):  # of what is no table
+        for stage, rows in found.items() if part == "tables" else ():
             for row, other in zip(published.get(stage, []), rows, strict=False):
                 if row != other:
                     return f"place {other['place']} of {stage} is {row.get('team')}, and {other['team']} by the matches"

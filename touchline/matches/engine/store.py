@@ -6,6 +6,8 @@ import sqlite3
 from contextlib import suppress
 from pathlib import Path
 
+from msgspec import DecodeError
+
 from schemas.errors import TouchlineError
 from touchline.matches.engine.outcome import FailureKind, Outcome, from_json, to_json
 
@@ -61,9 +63,16 @@ class RunStore:
         self._database.execute("INSERT OR REPLACE INTO documents VALUES (?, ?)", (name, content))
 
     def outcomes(self) -> dict[str, Outcome]:
-        """Identity → outcome of all matches that have ended."""
-        rows = self._database.execute("SELECT identity, content FROM outcomes ORDER BY identity")
-        return {identity: from_json(content) for identity, content in rows}
+        """Identity → outcome of all matches that have ended.
+
+        Raises:
+            TouchlineError: the state is damaged.
+        """
+        try:
+            rows = self._database.execute("SELECT identity, content FROM outcomes ORDER BY identity")
+            return {identity: from_json(content) for identity, content in rows}
+        except (sqlite3.Error, DecodeError) as error:
+            raise TouchlineError(f"{self.folder / FILE}: damaged ({error}); use another copy") from None
 
     def add(self, outcome: Outcome) -> None:
         """Store an outcome; it is on disk when this returns."""

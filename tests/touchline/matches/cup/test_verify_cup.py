@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import sqlite3
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
@@ -115,6 +116,18 @@ def test_a_published_table_that_does_not_follow_from_the_matches_is_named(cup: P
         f"result.json: match {content['matches'][-1]['match']} is not the stored one",
         "index.html: its table of league is not the one that follows from the matches",
     ]
+    result.write_text(json.dumps(content | {"tables": {"league": [None]}}))
+    assert verified(cup).faults[0] == "result.json: tables is not the one that follows from the matches"
+    result.write_text("1")
+    assert verified(cup).faults[0].startswith("result.json: 'int' object is not iterable; play the cup with --resume")
+
+
+@pytest.mark.parametrize(("table", "why"), [("outcomes", "damaged"), ("documents", "its cup is damaged")])
+def test_a_damaged_state_is_one_line(cup: Path, table: str, why: str) -> None:
+    with closing(sqlite3.connect(cup / "run.sqlite", isolation_level=None)) as database:
+        database.execute(f"UPDATE {table} SET content = '{{'")
+    with pytest.raises(TouchlineError, match=why):
+        verified(cup)
 
 
 def test_files_of_a_team_that_have_changed_are_a_fault_and_absent_ones_a_note(tmp_path: Path) -> None:
