@@ -22,7 +22,8 @@ def not_checked(recording: Recording, *, referee: bool, why_no_referee: str) -> 
     found = []
     if not referee:
         found.append(f"{STATE.key}, {EVENT.key}, and clock, episode and off_field of {WORLD.key} ({why_no_referee})")
-    found += [f"{key} (not recorded)" for key in _missing(recording, referee=referee)]
+    compared = (WORLD.key, STATE.key, EVENT.key) if referee else (WORLD.key,)
+    found += [f"{key} (not recorded)" for key in compared if not is_recorded(recording, key)]
     driven = sorted(manually_driven(recording), key=natural_order)
     if driven:
         found.append(f"inputs of {', '.join(driven)} (under manual control, which is not recorded)")
@@ -43,11 +44,6 @@ def not_checked(recording: Recording, *, referee: bool, why_no_referee: str) -> 
     if recording.drawn:
         found.append("drawings for viewers")
     return [*found, "wall times"]
-
-
-def _missing(recording: Recording, *, referee: bool) -> list[str]:
-    keys = (WORLD.key, STATE.key, EVENT.key) if referee else (WORLD.key,)
-    return [key for key in keys if not is_recorded(recording, key)]
 
 
 def _incomplete(recording: Recording) -> list[str]:

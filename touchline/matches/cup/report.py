@@ -33,13 +33,20 @@ def report_text(state: CupState) -> str:
     """Tables, the knock-out, matches without a result, ratings and winner."""
     lines: list[str] = []
     for stage, rows in state.schedule.tables.items():
-        cells = [(str(row.place), row.team, *_numbers(row)) for row in rows]
+        cells = [
+            (
+                *map(str, (row.place, row.team, row.played, row.won, row.drawn, row.lost)),
+                f"{row.goals_for}:{row.goals_against}",
+                str(row.points),
+            )
+            for row in rows
+        ]
         lines += [stage, *aligned([("", "team", "P", "W", "D", "L", "goals", "points"), *cells]), ""]
     bracket = state.schedule.bracket
     if bracket is not None:
         names = {one.name for one in bracket.fixtures}
         played = [one for one in state.matches if one.slot.fixture.name in names and one.result is not None]
-        lines += [_line(one) for one in played]
+        lines += [match_line(one) for one in played]
         lines += [f"{name} is level, and decided by {criterion}" for name, criterion in bracket.decided_by.items()]
         lines.append("")
     for one in state.matches:
@@ -54,15 +61,10 @@ def report_text(state: CupState) -> str:
     return "\n".join(lines)
 
 
-def _numbers(row: Any) -> tuple[str, ...]:
-    counts = (row.played, row.won, row.drawn, row.lost)
-    return (*map(str, counts), f"{row.goals_for}:{row.goals_against}", str(row.points))
-
-
-def _line(one: CupMatch) -> str:
+def match_line(one: CupMatch) -> str:
+    """A match that is over: its name, the teams, and the score."""
     cyan, magenta = one.slot.sides
-    assert one.result is not None
-    return f"{one.slot.name}: {cyan} {score_text(one.result, cyan)} {magenta}"
+    return f"{one.slot.name}: {cyan} {score_text(one.result, cyan) if one.result is not None else 'failed'} {magenta}"
 
 
 def _match(one: CupMatch) -> dict[str, Any]:

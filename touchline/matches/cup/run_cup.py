@@ -8,8 +8,7 @@ from schemas.errors import TouchlineError
 from touchline.matches.cup.cup_config import CupConfig
 from touchline.matches.cup.cup_plan import CupPlan, check_submitted, digests_of, match_config, store_plan, stored_plan
 from touchline.matches.cup.cup_state import CupState, state_of
-from touchline.matches.cup.match_result import score_text
-from touchline.matches.cup.report import RESULT, report_of
+from touchline.matches.cup.report import RESULT, match_line, report_of
 from touchline.matches.cup.site import Site
 from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.planned_match import PlannedMatch
@@ -61,7 +60,9 @@ class CupRun:
             self._outcomes[planned.identity] = outcome
             state = self.state
             self._site.write(state, running=True)
-            return _sentence(state, planned.label)
+            (match,) = (one for one in state.matches if one.slot.name == planned.label)
+            reason = match.ended.reason if match.ended is not None else None
+            return match_line(match) + (f"   {reason}" if reason is not None else "")
 
         try:
             run_plan(self.plan, executor, self._store, told, progress, is_remote=is_remote)
@@ -97,12 +98,3 @@ class CupRun:
                     f'the files of team "{team}" have changed since the cup began; restore them, or give another --out'
                 )
         store.forget_lost()
-
-
-def _sentence(state: CupState, name: str) -> str:
-    """One line on a match that has ended."""
-    (match,) = (one for one in state.matches if one.slot.name == name)
-    cyan, magenta = match.slot.sides
-    score = score_text(match.result, cyan) if match.result is not None else "failed"
-    reason = f"   {match.ended.reason}" if match.ended is not None and match.ended.reason is not None else ""
-    return f"{name}: {cyan} {score} {magenta}{reason}"

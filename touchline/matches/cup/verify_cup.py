@@ -16,7 +16,6 @@ from touchline.matches.cup.cup_state import CupState
 from touchline.matches.cup.report import RESULT, report_of
 from touchline.matches.cup.site import standings
 from touchline.matches.engine.outcome import Failed, Played
-from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.progress import ProgressDisplay
 from touchline.matches.engine.store import RunStore
 from touchline.matches.engine.verify import Depth, sampled, verify_run
@@ -74,7 +73,8 @@ def verify_cup(
         [one for one in matches if isinstance(outcomes.get(one.identity), kind)] for kind in (Played, Failed)
     )
     again = sampled(played, sample)
-    faults += [f"{one.label}: its recording is gone" for one in played if one not in again and not _is_there(one)]
+    unread = [(one.label, one.recording) for one in played if one not in again]
+    faults += [f"{name}: its recording is gone" for name, path in unread if path is not None and not path.exists()]
     code_faults, notes = _code_checks(plan)
     faults += code_faults
     ticks = 0
@@ -83,10 +83,6 @@ def verify_cup(
         ticks += check.ticks
     faults += _table_faults(state, folder)
     return CupVerdict(faults, notes, len(again), ticks)
-
-
-def _is_there(planned: PlannedMatch) -> bool:
-    return planned.recording is None or planned.recording.exists()
 
 
 def _code_checks(plan: CupPlan) -> tuple[list[str], list[str]]:

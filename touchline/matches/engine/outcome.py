@@ -9,7 +9,7 @@ from msgspec import ValidationError
 from recordings.soccer.stats.figures import MatchFigures
 from schemas.errors import TouchlineError
 from schemas.side import Side
-from schemas.wire.part import decoder, encode
+from schemas.wire.part import decoder
 from touchline.matches.judging.judge import DrillVerdict
 
 
@@ -99,13 +99,8 @@ def _relative(path: str | None, folder: Path) -> str | None:
     return Path(path).resolve().relative_to(folder.resolve()).as_posix()
 
 
-def to_json(outcome: Outcome) -> bytes:
-    """The outcome as one JSON object."""
-    return encode(outcome)
-
-
 def from_json(text: bytes) -> Outcome:
-    """The outcome of `to_json`."""
+    """The outcome that was encoded."""
     try:
         outcome: Outcome = decoder(Played).decode(text)
     except ValidationError:

@@ -4,7 +4,7 @@ import signal
 import sqlite3
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 
 from schemas.errors import MatchFailedError, TouchlineError
@@ -55,25 +55,17 @@ def session_of(title: str, jobs: int, dask: str | None = None, *, json: bool = F
     Raises:
         TouchlineError: an option is invalid, Dask is not installed, or no scheduler answers.
     """
-    with _executor(jobs, dask) as (executor, at_once), progress_of(title, at_once=at_once, json=json) as progress:
-        yield Session(executor, progress, is_remote=dask is not None)
-
-
-@contextmanager
-def _executor(jobs: int, dask: str | None) -> Iterator[tuple[Executor, int]]:
-    """The executor, and the number of matches that it plays at a time."""
     if jobs < 0:
         raise TouchlineError(f"--jobs is {jobs}; give a number of matches at a time, or 0 for one per core")
-    if dask is not None:
-        if jobs:
-            raise TouchlineError(
-                f"--jobs is {jobs}, and --dask plays one match on each thread of its workers; leave one out"
-            )
-        with dask_cluster(dask) as chosen:
-            yield chosen
-        return
-    local = FreshProcesses(jobs or cores())
-    try:
-        yield local, jobs or cores()
-    finally:
-        local.shutdown(cancel_futures=True)
+    if dask is not None and jobs:
+        raise TouchlineError(
+            f"--jobs is {jobs}, and --dask plays one match on each thread of its workers; leave one out"
+        )
+    with ExitStack() as stack:
+        if dask is not None:
+            executor, at_once = stack.enter_context(dask_cluster(dask))
+        else:
+            executor, at_once = FreshProcesses(jobs or cores()), jobs or cores()
+            stack.callback(executor.shutdown, cancel_futures=True)
+        progress = stack.enter_context(progress_of(title, at_once=at_once, json=json))
+        yield Session(executor, progress, is_remote=dask is not None)

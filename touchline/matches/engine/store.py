@@ -9,7 +9,8 @@ from pathlib import Path
 from msgspec import DecodeError
 
 from schemas.errors import TouchlineError
-from touchline.matches.engine.outcome import FailureKind, Outcome, from_json, to_json
+from schemas.wire.part import encode
+from touchline.matches.engine.outcome import FailureKind, Outcome, from_json
 
 FILE = "run.sqlite"
 """The file of a run's state, in its folder."""
@@ -76,7 +77,7 @@ class RunStore:
 
     def add(self, outcome: Outcome) -> None:
         """Store an outcome; it is on disk when this returns."""
-        self._database.execute("INSERT OR REPLACE INTO outcomes VALUES (?, ?)", (outcome.identity, to_json(outcome)))
+        self._database.execute("INSERT OR REPLACE INTO outcomes VALUES (?, ?)", (outcome.identity, encode(outcome)))
 
     def forget_lost(self) -> None:
         """Remove the outcomes of matches whose worker was lost, so that they are played again."""

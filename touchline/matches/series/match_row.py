@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from recordings.soccer.stats.figures import MatchFigures
 from schemas.side import Side
-from touchline.matches.engine.outcome import Failed, Outcome, Played
+from touchline.matches.engine.outcome import Failed, Outcome
 from touchline.matches.series.plan import SeedMatch, SeriesPlan
 
 
@@ -68,31 +68,27 @@ def row_of(number: int, match: SeedMatch, outcome: Outcome) -> Row:
     """The row of a match that ended so; `number` is its place in the series."""
     if isinstance(outcome, Failed):
         return FailedMatch(number, outcome.identity, match.seed, match.swapped, outcome.reason)
-    return _played_row(number, match, outcome)
+    figures = outcome.of_soccer
+    first, second = (_team_row(figures, side) for side in match.sides)
+    return MatchRow(
+        number=number,
+        identity=outcome.identity,
+        seed=match.seed,
+        swapped=match.swapped,
+        teams=(first, second),
+        playing_time=outcome.playing_time,
+        in_play_s=figures.in_play_s or 0.0,
+        crowded_s=figures.crowded_s or 0.0,
+        longest_crowd_s=figures.longest_crowd_s or 0.0,
+        longest_stuck_s=max((robot.longest_stuck_s for robot in figures.robots), default=0.0),
+        chain=outcome.chain,
+    )
 
 
 def rows_of(plan: SeriesPlan, outcomes: Mapping[str, Outcome]) -> list[Row]:
     """The rows of all matches that have ended, in the order of the plan."""
     numbered = enumerate(plan.matches, start=1)
     return [row_of(number, one, outcomes[one.identity]) for number, one in numbered if one.identity in outcomes]
-
-
-def _played_row(number: int, match: SeedMatch, played: Played) -> MatchRow:
-    figures = played.of_soccer
-    first, second = (_team_row(figures, side) for side in match.sides)
-    return MatchRow(
-        number=number,
-        identity=played.identity,
-        seed=match.seed,
-        swapped=match.swapped,
-        teams=(first, second),
-        playing_time=played.playing_time,
-        in_play_s=figures.in_play_s or 0.0,
-        crowded_s=figures.crowded_s or 0.0,
-        longest_crowd_s=figures.longest_crowd_s or 0.0,
-        longest_stuck_s=max((robot.longest_stuck_s for robot in figures.robots), default=0.0),
-        chain=played.chain,
-    )
 
 
 def _team_row(figures: MatchFigures, side: Side) -> TeamRow:

@@ -95,9 +95,3 @@ def widest(table: pd.DataFrame, response: str, matches: int) -> float | None:
     estimates = [estimate_of(values) for values in compared]
     widths = [one.width for one in estimates if one.width is not None]
     return max(widths) if len(widths) == len(estimates) else None
-
-
-def is_narrow(table: pd.DataFrame, response: str, matches: int, limit: float) -> bool:
-    """Whether the widest interval of a response is at most this wide."""
-    width = widest(table, response, matches)
-    return width is not None and width <= limit

@@ -100,11 +100,9 @@ def rate(teams: Sequence[str], played: Sequence[Scored], level: float = LEVEL) -
 
 def holm(probabilities: Sequence[float]) -> list[float]:
     """Holm's correction: probabilities that may be compared with one level, however many there are."""
-    corrected, greatest = [0.0] * len(probabilities), 0.0
-    for rank, place in enumerate(sorted(range(len(probabilities)), key=probabilities.__getitem__)):
-        greatest = max(greatest, min(1.0, (len(probabilities) - rank) * probabilities[place]))
-        corrected[place] = greatest
-    return corrected
+    order = np.argsort(probabilities)
+    raised = np.minimum(1.0, np.sort(probabilities) * np.arange(len(order), 0, -1))
+    return [float(one) for one in np.maximum.accumulate(raised)[np.argsort(order)]]
 
 
 class _Model:

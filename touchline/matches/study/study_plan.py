@@ -14,7 +14,7 @@ from touchline.matches.engine.inputs_only import with_inputs_only
 from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.series.plan import SeedMatch, with_sides_swapped
-from touchline.matches.statistics.paired import is_narrow
+from touchline.matches.statistics.paired import widest
 from touchline.matches.study.cells import Cell
 from touchline.matches.study.match_figures import Value
 from touchline.matches.study.result_table import COUNTS, result_table
@@ -71,8 +71,8 @@ class StudyPlan:
             if any(one.identity not in outcomes for one in matches):
                 break
             if number not in self._narrow:
-                table, primary, limit = self.table(seeds, outcomes), self.study.primary, self.study.until_interval
-                self._narrow[number] = is_narrow(table, primary, self.study.matches_of_seed, limit)
+                width = widest(self.table(seeds, outcomes), self.study.primary, self.study.matches_of_seed)
+                self._narrow[number] = width is not None and width <= self.study.until_interval
             if self._narrow[number]:
                 break
             number = min(most, number + len(first))

@@ -9,9 +9,10 @@ import pytest
 
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
+from schemas.wire.part import encode
 from support.dask_cluster import Cluster
 from touchline.matches.engine.dask_cluster import dask_cluster
-from touchline.matches.engine.outcome import Outcome, to_json
+from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.run import run_plan
@@ -54,7 +55,7 @@ def test_a_run_on_two_workers_of_which_one_is_killed_ends_with_the_same_outcomes
         there = run_plan(plan, executor, None, log, is_remote=True)
     with ThreadPoolExecutor(1) as executor:
         here = run_plan(plan, executor, None, LosesWorker(cluster))
-    assert {name: to_json(one) for name, one in there.items()} == {name: to_json(one) for name, one in here.items()}
+    assert {name: encode(one) for name, one in there.items()} == {name: encode(one) for name, one in here.items()}
     assert log.ended_matches == 8
 
 

@@ -21,9 +21,10 @@ import pytest
 from schemas.config.match_config import MatchConfig
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.side import Side
+from schemas.wire.part import encode
 from touchline.matches.engine.code_digest import code_digest
 from touchline.matches.engine.fresh_process import DiedProcessError, FreshProcesses
-from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played, to_json
+from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played
 from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.run import run_plan
@@ -66,7 +67,7 @@ def swapped(sides: Mapping[Side, Any]) -> dict[Side, Any]:
 
 
 def bytes_of(outcomes: Mapping[str, Outcome]) -> dict[str, bytes]:
-    return {identity: to_json(outcome) for identity, outcome in sorted(outcomes.items())}
+    return {identity: encode(outcome) for identity, outcome in sorted(outcomes.items())}
 
 
 def test_all_executors_give_the_same_bytes(matches: Matches, tmp_path: Path) -> None:

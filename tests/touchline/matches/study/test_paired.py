@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("scipy", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
-from touchline.matches.statistics.paired import Comparison, adjusted, estimate_of, is_narrow, seed_means  # noqa: E402
+from touchline.matches.statistics.paired import Comparison, adjusted, estimate_of, seed_means, widest  # noqa: E402
 from touchline.matches.study.comparisons import answers, compared, comparison_groups, unread_factors  # noqa: E402
 from touchline.matches.study.sentences import sentence_of, sentence_of_unread  # noqa: E402
 from touchline.matches.study.study_plan import StudyPlan  # noqa: E402
@@ -154,6 +154,5 @@ def test_p_values_are_adjusted_for_their_number(bare_plan: MakePlan, table: Make
 def test_an_interval_is_narrow_once_seeds_suffice(table: MakeTable) -> None:
     rng = np.random.default_rng(1)
     few, many = (table("goals", {1: rng.normal(0, 1, n), 2: rng.normal(0, 1, n)}) for n in (4, 400))
-    assert not is_narrow(few, "goals", 1, 0.5)
-    assert is_narrow(many, "goals", 1, 0.5)
-    assert not is_narrow(table("goals", {1: [1, 1], 2: [1, 1]}), "goals", 1, 0.5)
+    assert widest(few, "goals", 1) > 0.5 > widest(many, "goals", 1)
+    assert widest(table("goals", {1: [1, 1], 2: [1, 1]}), "goals", 1) is None
