@@ -68,8 +68,4 @@ def test_the_referee_brings_about_every_match_mode_from_a_sides_point_of_view(ow
 
 def test_a_sides_coach_stops_starts_and_parks_its_own_robots_and_nothing_more() -> None:
     orders = {mode: meaning.order for mode in MatchMode if (meaning := for_coach(mode)) is not None}
-    assert orders == {
-        MatchMode.STOP: CoachMode.HOLD,
-        MatchMode.START: CoachMode.PLAY,
-        MatchMode.PARK: CoachMode.PARK,
-    }
+    assert orders == {MatchMode.STOP: CoachMode.HOLD, MatchMode.START: CoachMode.PLAY, MatchMode.PARK: CoachMode.PARK}

@@ -11,16 +11,7 @@ from runtime.bus.contract import Bus, ReceivedMessage, Stamp
 from schemas.messages.health import Health
 from schemas.messages.world import World
 from schemas.soccer.game import Phase, Score
-from schemas.topics import (
-    COMMAND,
-    EVENT,
-    HEALTH,
-    ORDER,
-    RECORD_BATCH,
-    RECORDER_PROGRESS,
-    SIGHT,
-    WORLD,
-)
+from schemas.topics import COMMAND, EVENT, HEALTH, ORDER, RECORD_BATCH, RECORDER_PROGRESS, SIGHT, WORLD
 
 
 def records(path):
@@ -434,12 +425,7 @@ def test_the_manifest_names_config_versions_and_mathematics(recorded):
 
 
 def test_match_file_profile_rules_and_whole_schemas_are_attached(recorded):
-    assert sorted(recorded.attachments) == [
-        "match.json",
-        "message_schemas.json",
-        "profile.json",
-        "rules.json",
-    ]
+    assert sorted(recorded.attachments) == ["match.json", "message_schemas.json", "profile.json", "rules.json"]
     assert b'"$defs"' in recorded.attachments["message_schemas.json"]
     assert b'"seed":7' in recorded.attachments["match.json"]
 

@@ -169,12 +169,7 @@ def test_a_state_that_is_impossible_is_refused(
 
 
 def spawn(name: str, text: str, x: float = 4.0, **more: Any) -> dict[str, Any]:
-    return {
-        "name": name,
-        "entity_resource": {"resource_string": text},
-        "initial_pose": {"pose": pose(x, 4.0)},
-        **more,
-    }
+    return {"name": name, "entity_resource": {"resource_string": text}, "initial_pose": {"pose": pose(x, 4.0)}, **more}
 
 
 def test_bodies_are_spawned_together_and_deleted(simulator: Simulator) -> None:

@@ -12,14 +12,7 @@ from schemas.frames import wrap
 from schemas.messages.command import KickMode
 
 DT = 0.021
-PATH = [
-    State.CHASE_BALL,
-    State.MOVE_BALL,
-    State.ROTATE_BALL,
-    State.KICK_BALL,
-    State.RESET,
-    State.HOME,
-]
+PATH = [State.CHASE_BALL, State.MOVE_BALL, State.ROTATE_BALL, State.KICK_BALL, State.RESET, State.HOME]
 
 
 class Field:

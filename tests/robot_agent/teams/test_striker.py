@@ -19,11 +19,7 @@ def intention(setup):
 
 @pytest.mark.parametrize(
     ("mate", "held", "does"),
-    [
-        ((4.0, 1.0), 0.0, "pass to cyan3"),
-        ((-4.0, 1.0), 0.0, "carry"),
-        ((-4.0, 1.0), PATIENCE + 0.1, "pass to cyan3"),
-    ],
+    [((4.0, 1.0), 0.0, "pass to cyan3"), ((-4.0, 1.0), 0.0, "carry"), ((-4.0, 1.0), PATIENCE + 0.1, "pass to cyan3")],
 )
 def test_the_ball_goes_back_to_the_receiver_it_was_meant_for_only_in_a_hurry(intention, mate, held, does):
     assert intention(mate, held) == does

@@ -91,10 +91,7 @@ FORGERIES = {
     "a card taken out": (delete_card, "game/event card is missing: "),
     "states taken out": (delete_states, "game/state is missing: "),
     "a state put in": (add_state, "game/state is recorded and not simulated: "),
-    "a robot off the field that seems to play": (
-        hide_absence,
-        "magenta1: off_field is None recorded",
-    ),
+    "a robot off the field that seems to play": (hide_absence, "magenta1: off_field is None recorded"),
     "a clock that stands": (each("world", lambda fields: fields.update(clock=1.0)), "world: clock is 1.0 recorded"),
     "a doubled world": (double_world, "world is doubled, out of order or shifted: there are two messages of tick 150"),
     "two worlds in the wrong order": (swap_worlds, "world is doubled, out of order or shifted: tick 150 comes after"),

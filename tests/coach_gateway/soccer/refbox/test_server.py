@@ -56,12 +56,7 @@ async def test_a_whole_game_is_sent_to_both_teams_in_the_leagues_terms() -> None
         say(phase=Phase.KICK_OFF, side=Side.CYAN)
         say(running=True)
         say(phase=Phase.PLAY, side=None)
-        say(
-            robots={
-                "magenta2": DisciplinaryRecord(yellow=1),
-                "cyan3": DisciplinaryRecord(off_field=OffField.REPAIR),
-            }
-        )
+        say(robots={"magenta2": DisciplinaryRecord(yellow=1), "cyan3": DisciplinaryRecord(off_field=OffField.REPAIR)})
         say(phase=Phase.STOPPED, running=False, score=Score(magenta=1))
         say(
             robots={
@@ -120,10 +115,7 @@ def play_a_short_game(say: Callable[..., Any]) -> None:
     say(
         phase=Phase.THROW_IN,
         side=Side.MAGENTA,
-        robots={
-            "magenta2": DisciplinaryRecord(yellow=1),
-            "cyan1": DisciplinaryRecord(off_field=OffField.SUBSTITUTION),
-        },
+        robots={"magenta2": DisciplinaryRecord(yellow=1), "cyan1": DisciplinaryRecord(off_field=OffField.SUBSTITUTION)},
     )
     say(running=True)
     say(phase=Phase.PARKING, side=None, running=False)
@@ -135,9 +127,7 @@ GAME_IN_CHARACTERS = b"1KsSatysShLz"
 
 
 @pytest.mark.parametrize("by", ["port", "hello"])
-async def test_software_of_before_2020_reads_the_game_as_single_characters(
-    by: str,
-) -> None:
+async def test_software_of_before_2020_reads_the_game_as_single_characters(by: str) -> None:
     """As the NuBot coach does; a base station of today at the same box reads JSON."""
 
     old_port = ServerAddress(0, protocol=BoxProtocol.CHARACTERS if by == "port" else BoxProtocol.JSON)

@@ -19,13 +19,7 @@ ROBOTS = ((-2.0, 1.0), (-2.0, -1.0), (-5.0, 0.0))
 
 def at(pitch, ball, opponents=(), *, attacks):
     return places(
-        ball,
-        attacks=attacks,
-        opponents=opponents,
-        robots=ROBOTS,
-        pitch=pitch,
-        inset=0.25,
-        parameters=PARAMETERS,
+        ball, attacks=attacks, opponents=opponents, robots=ROBOTS, pitch=pitch, inset=0.25, parameters=PARAMETERS
     )
 
 

@@ -193,10 +193,7 @@ def test_the_help_is_the_command_s_own() -> None:
 
 @pytest.mark.parametrize(
     ("content", "says"),
-    [
-        ({"place": 3}, "--place is 3; text"),
-        ({"place": "here", "shape": {"height": -1}}, "--height is -1; at least 0"),
-    ],
+    [({"place": 3}, "--place is 3; text"), ({"place": "here", "shape": {"height": -1}}, "--height is -1; at least 0")],
 )
 def test_a_value_that_a_model_refuses_is_named_by_its_option(content: dict[str, Any], says: str) -> None:
     with pytest.raises(TouchlineError, match=says):
