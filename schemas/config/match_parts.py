@@ -176,7 +176,7 @@ class Patience(ConfigModel):
     """How long the host waits, in s of wall time."""
 
     attendance: Annotated[float, Field(ge=0, le=86_400)] = 60.0
-    """Longest wait for all robots before the first tick, in s."""
+    """Longest wait for all robots before the first tick, and in one process for a robot to be built, in s."""
     remote: Annotated[float, Field(ge=0, le=86_400)] = 86_400.0
     """Longest wait for the robots of a remote team before the first tick, in s."""
     answer: Annotated[float, Field(gt=0, le=60)] = 10.0

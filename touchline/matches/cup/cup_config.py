@@ -164,7 +164,7 @@ class CupConfig(ConfigModel):
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = DEFAULT_SIZE
     """Number of robots of each team."""
     hang: Annotated[float, Field(ge=1, le=3600)] = 20.0
-    """Wall time in s for one decision of a brain, or for building it, after which its team forfeits."""
+    """Wall time in s for one decision of a brain, after which its team forfeits; `patience.attendance` to build it."""
     format: FormatConfig = FormatConfig()
     """The format."""
     table: TableConfig = TableConfig()

@@ -27,6 +27,8 @@ class Note:
     """The robot whose brain had control, in a check with what it did; empty if none had."""
     is_built: bool = True
     """Whether it acted; otherwise it was built."""
+    limit_s: float = 0.0
+    """The wall time in s that it had."""
     stack: str = ""
     """The stack of its threads when a brain did not answer; empty if it ended in another way."""
 
@@ -34,36 +36,35 @@ class Note:
 class HangWatch:
     """The deadline of the brains of one match; the process ends where it is not renewed in time."""
 
-    def __init__(self, folder: Path | None, seconds: float = HANG_S) -> None:
-        """`folder` gets the note; without it nothing is watched."""
-        self._seconds = seconds
+    def __init__(self, folder: Path | None, seconds: float = HANG_S, building: float = 0.0) -> None:
+        """`folder` gets the note; without it nothing is watched. A decision has `seconds` of wall time, and a robot to
+        be built at least `building`: on a busy machine imports take long.
+        """
+        self._limits = max(seconds, building), seconds
+        self._is_built = True
         self._clock = WallClock()
         self._renewed = 0.0
         self._note = os.open(folder / _ACTING, os.O_CREAT | os.O_WRONLY) if folder is not None else None
         self._stack = (folder / _STACK).open("w") if folder is not None else None
 
     def note(self, acting: str | None, *, is_built: bool = True) -> None:
-        """Note the robot whose brain gets control; None while none has it."""
-        if self._note is not None:
-            text = f"{int(is_built)}{acting or ''}".encode()[:_SIZE].ljust(_SIZE, b"\0")
-            os.pwrite(self._note, text, 0)
+        """Note the robot whose brain gets control, None while none has it, and begin the time anew."""
+        if self._note is None or self._stack is None:
+            return
+        limit, now = self._limits[is_built], self._clock.now()
+        os.pwrite(self._note, f"{int(is_built)}{limit:g} {acting or ''}".encode()[:_SIZE].ljust(_SIZE, b"\0"), 0)
+        if is_built != self._is_built or now - self._renewed >= HANG_RENEW_S:
+            self._is_built, self._renewed = is_built, now
+            faulthandler.dump_traceback_later(limit + HANG_RENEW_S, exit=True, file=self._stack)
 
     @contextmanager
-    def acting(self, what: str) -> Iterator[None]:
-        """Note who acts, and begin the time anew; nobody acts afterwards."""
-        self.note(what)
-        self.renew()
+    def acting(self, what: str, *, is_built: bool = True) -> Iterator[None]:
+        """Note who acts; nobody acts afterwards."""
+        self.note(what, is_built=is_built)
         try:
             yield
         finally:
             self.note(None)
-
-    def renew(self) -> None:
-        """Begin the time anew."""
-        now = self._clock.now()
-        if self._stack is not None and now - self._renewed >= HANG_RENEW_S:
-            self._renewed = now
-            faulthandler.dump_traceback_later(self._seconds + HANG_RENEW_S, exit=True, file=self._stack)
 
     def close(self) -> None:
         """End the watch."""
@@ -79,4 +80,5 @@ def read_note(folder: Path) -> Note:
     if not note.exists() or not stack.exists():
         return Note()
     text = note.read_bytes().rstrip(b"\0").decode("utf-8", "replace")
-    return Note(text[1:], text[:1] != "0", stack.read_text("utf-8", "replace"))
+    head, _, acting = text.partition(" ")
+    return Note(acting, head[:1] != "0", float(head[1:] or 0.0), stack.read_text("utf-8", "replace"))

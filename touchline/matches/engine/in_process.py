@@ -7,9 +7,8 @@ from dataclasses import replace
 
 from robot_agent.loading.user_code import place_of, sentence_of
 from schemas.errors import TouchlineError
-from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
-from sim_host.match.simulation import Simulation, TickResult
+from sim_host.match.simulation import Simulation
 from touchline.matches.engine.fresh_process import DiedProcessError
 from touchline.matches.engine.hang_watch import HangWatch
 from touchline.matches.engine.measurement import Measurement
@@ -30,7 +29,7 @@ _UNKNOWN_STATUS = 255
 
 
 class _WatchedMatch(InProcessMatch):
-    """A match in which each robot has the whole time of the limit to be built."""
+    """A match that tells the watch who acts."""
 
     def __init__(self, planned: PlannedMatch, watch: HangWatch) -> None:
         self._watch = watch
@@ -47,14 +46,6 @@ class _WatchedMatch(InProcessMatch):
     def acting(self, robot: str | None) -> None:
         self._acting = robot
         self._watch.note(robot, is_built=self._is_built)
-        if not self._is_built:
-            self._watch.renew()
-
-    def step(self, actions: tuple[RefereeAction, ...] = ()) -> TickResult:
-        """One tick, after which the time begins anew."""
-        tick = super().step(actions)
-        self._watch.renew()
-        return tick
 
 
 def play_in_process(planned: PlannedMatch, watch: HangWatch) -> Outcome:
@@ -106,9 +97,9 @@ def outcome_of_death(planned: PlannedMatch, error: DiedProcessError) -> Failed:
     if not stack:
         kind, reason = FailureKind.CRASHED, f"{robot}: {error}"
     elif error.note.is_built:
-        kind, reason = FailureKind.HUNG, f"{robot}: no answer within {planned.hang_s:g} s"
+        kind, reason = FailureKind.HUNG, f"{robot}: no answer within {error.note.limit_s:g} s"
     else:
-        kind, reason = FailureKind.DID_NOT_START, f"{robot} is not built: no answer within {planned.hang_s:g} s"
+        kind, reason = FailureKind.DID_NOT_START, f"{robot} is not built: no answer within {error.note.limit_s:g} s"
     return Failed(planned.identity, kind, reason, sides, written_traceback(planned, stack or reason))
 
 

@@ -40,7 +40,8 @@ class PlannedMatch:
     logs: Path | None = None
     """The folder that gets the logs of its processes, or the traceback of a brain that raised; None for none."""
     hang_s: float = HANG_S
-    """Wall time in s for a decision of a brain, or to build it, after which its team hangs: in one process."""
+    """Wall time in s for a decision of a brain, after which its team hangs, in one process. To build it there is at
+    least `patience.attendance`."""
     is_drill: bool = False
     """It ends with the verdict of the scene that it starts from; only in one process."""
     label: str = ""

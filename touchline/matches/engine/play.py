@@ -33,7 +33,7 @@ def play(planned: PlannedMatch, note: Path | None = None) -> Outcome:
     try:
         if planned.way is Way.PROCESSES:
             return play_with_processes(planned)
-        with closing(HangWatch(note, planned.hang_s)) as watch:
+        with closing(HangWatch(note, planned.hang_s, planned.config.patience.attendance)) as watch:
             return play_in_process(planned, watch)
     finally:
         if planned.logs is not None and not any(planned.logs.iterdir()):

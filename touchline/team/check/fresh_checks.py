@@ -27,7 +27,7 @@ def run_fresh(subject: Subject, seconds: float, hang_s: float = HANG_S) -> Itera
     """Run all checks on a brain; results come as soon as they are known.
 
     Args:
-        hang_s: wall time in s for one decision, or for a robot to be built.
+        hang_s: wall time in s for one decision.
 
     Raises:
         TouchlineError: the match is invalid.
@@ -49,7 +49,7 @@ def run_fresh(subject: Subject, seconds: float, hang_s: float = HANG_S) -> Itera
             try:
                 future.result()
             except DiedProcessError as error:
-                yield CheckResult(CHECKS[count].name, kept=False, sentence=died_sentence(error, hang_s))
+                yield CheckResult(CHECKS[count].name, kept=False, sentence=died_sentence(error))
                 yield from (CheckResult(check.name, kept=None) for check in CHECKS[count + 1 :])
     finally:
         processes.shutdown(cancel_futures=True)
@@ -57,16 +57,17 @@ def run_fresh(subject: Subject, seconds: float, hang_s: float = HANG_S) -> Itera
 
 def _run(subject: Subject, seconds: float, hang_s: float, written: Path, note: Path) -> None:
     """What the process does: a line for each result."""
-    with closing(HangWatch(note, hang_s)) as watch, written.open("wb", buffering=0) as lines:
+    building = subject.config.patience.attendance
+    with closing(HangWatch(note, hang_s, building)) as watch, written.open("wb", buffering=0) as lines:
         for result in run_checks(Examination(replace(subject, watch=watch), seconds)):
             lines.write(msgspec.json.encode(result) + b"\n")
 
 
-def died_sentence(error: DiedProcessError, hang_s: float) -> str:
+def died_sentence(error: DiedProcessError) -> str:
     """What ended the process, and in which line of the brain."""
     what = error.note.acting or "the check"
     if not error.note.stack:
         return f"{what}: {error}"
     frames = _FRAME.findall(error.note.stack)
     file, line = next((frame for frame in frames if is_users(frame[0])), frames[0])
-    return f"{what} has not returned after {hang_s:g} s ({shown_path(file)}, line {line})"
+    return f"{what} has not returned after {error.note.limit_s:g} s ({shown_path(file)}, line {line})"

@@ -70,7 +70,7 @@ def pass_scenes(
             try:
                 yield processes.submit(_pass_watched, subject, seed, seconds, clearance, hang_s).result()
             except DiedProcessError as error:
-                yield SceneResult(seed, died_sentence(error, hang_s), None, 0, 0.0)
+                yield SceneResult(seed, died_sentence(error), None, 0, 0.0)
     finally:
         processes.shutdown(cancel_futures=True)
 
@@ -78,7 +78,7 @@ def pass_scenes(
 def _pass_watched(
     subject: Subject, seed: int, seconds: float, clearance: float | None, hang_s: float, note: Path
 ) -> SceneResult:
-    with closing(HangWatch(note, hang_s)) as watch:
+    with closing(HangWatch(note, hang_s, subject.config.patience.attendance)) as watch:
         return pass_gate(replace(subject, watch=watch), seed, seconds, WallClock(), clearance)
 
 

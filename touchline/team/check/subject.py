@@ -78,7 +78,7 @@ class Subject:
             return StdioProgram(command_line(self.stdio, self.folder), briefing, log=log.append)
         if self.command:
             return BusProgram(command_line(self.command), briefing, log)
-        with self.watch.acting(f"{briefing.robot}: building {self.brain}"):
+        with self.watch.acting(f"{briefing.robot}: building {self.brain}", is_built=False):
             return load_brain(self.brain, briefing, self.folder)
 
 

@@ -106,10 +106,11 @@ def test_a_brain_that_does_not_answer_is_named_with_its_stack(match_of: MatchOf,
     ends = {
         "CatchesAll": (hung, silent),
         "HoldsTheLock": (hung, silent),
-        "HangsAtFirst": (FailureKind.DID_NOT_START, "cyan1 is not built: no answer within 0.5 s"),
+        "HangsAtFirst": (FailureKind.DID_NOT_START, "cyan1 is not built: no answer within 1 s"),
     }
+    wait = {"patience.attendance": 1.0}
     planned = [
-        PlannedMatch(match_of(brain), brain_folder=folder, logs=tmp_path / brain, hang_s=0.5, label=brain)
+        PlannedMatch(match_of(brain, **wait), brain_folder=folder, logs=tmp_path / brain, hang_s=0.5, label=brain)
         for brain in ends
     ]
     with FreshProcesses(2) as executor:
@@ -162,7 +163,7 @@ def test_the_time_of_a_brain_begins_anew_at_most_once_in_a_while(
     with closing(HangWatch(tmp_path, 5.0)) as watch:
         for step in range(5):
             clock.sleep_until(100.0 + step * HANG_RENEW_S / 2)
-            watch.renew()
+            watch.note("cyan1")
     assert begun == [(100.0 + step * HANG_RENEW_S, 5.0 + HANG_RENEW_S) for step in range(3)]
 
 

@@ -244,7 +244,7 @@ def test_an_exception_that_an_earlier_check_reported_is_not_reported_again(
 @pytest.mark.parametrize(
     ("brain", "check", "words"),
     [
-        ("HangsInInit", "build", f"cyan1: building {MODULE}:HangsInInit has not returned after 3 s ("),
+        ("HangsInInit", "build", f"cyan1: building {MODULE}:HangsInInit has not returned after 4 s ("),
         ("HangsInAct", "answers", "cyan1: act at tick 3 has not returned after 3 s ("),
         ("HangsInC", "answers", "cyan1: act at tick 3 has not returned after 3 s ("),
         ("Crashes", "answers", "cyan1: act at tick 3: its process was ended by SIGABRT"),
@@ -253,7 +253,7 @@ def test_an_exception_that_an_earlier_check_reported_is_not_reported_again(
 def test_a_brain_that_never_returns_or_ends_its_process_ends_the_check_with_its_line(
     folder: Path, brain: str, check: str, words: str
 ) -> None:
-    config = load_match(None, {"teams.cyan.size": 2, "teams.magenta.size": 1, "teams.cyan.remote": True})
+    config = load_match(None, {"teams.cyan.size": 2, "teams.magenta.size": 1, "patience.attendance": 4.0})
     subject = Subject(config, f"{MODULE}:{brain}", folder=folder)
     results = list(run_fresh(subject, 2.0, hang_s=3.0))
     assert_only_fault(results, check, words)
