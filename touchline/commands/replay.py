@@ -74,7 +74,7 @@ def replay(
         typer.Option(metavar="OLD=NEW", help="Rename a key, or the beginning of keys: robot1=robot2; repeatable."),
     ] = None,
     agent: Annotated[
-        str | None,
+        list[str] | None,
         typer.Option(
             help="Give a robot's sights to a brain here, and compare its commands: cyan2=module:Class; no bus."
         ),
@@ -118,14 +118,14 @@ def replay(
 
     Example: touchline replay match.mcap --agent cyan2=my_team:Striker --from tick:812 --pdb
     """
-    if agent is not None:
+    if agent:
         from touchline.team.debugger.agent_replay import AgentReplay, parse_agent
 
         on_the_bus: dict[str, object] = {"--fast": fast, "--loop": loop, "--paused": paused, "--stay": stay}
         on_the_bus |= {"--include": include, "--exclude": exclude, "--follow": follow, "--connect": connect}
         on_the_bus |= {"--match": match, "--prefix": prefix, "--web": web, "--foxglove": foxglove}
         on_the_bus |= {"--rate": rate != 1.0, "--rename": rename, "a second FILE": files[1:]}
-        robot, brain = parse_agent(agent, on_the_bus)
+        robot, brain = parse_agent(agent[0], on_the_bus | {"a second --agent": agent[1:]})
         debugged = AgentReplay(
             files[0], robot, brain, start, end, every_difference, pdb, brain_folder, live=live, out=out, json=json
         )

@@ -92,9 +92,9 @@ def test_an_agent_without_robot_or_brain_is_reported(text):
         parse_agent(text, {})
 
 
-@pytest.mark.parametrize("option", ["--web", "--rate=2", "--include=world", "--paused"])
+@pytest.mark.parametrize("option", ["--web", "--rate=2", "--include=world", "--paused", "a second --agent=cyan1=a:B"])
 def test_options_of_a_replay_on_the_bus_are_refused_with_an_agent(played, option, capsys, monkeypatch):
-    words = ["touchline", "replay", str(played.path), "--agent", f"cyan2={SIMPLE}", option]
+    words = ["touchline", "replay", str(played.path), "--agent", f"cyan2={SIMPLE}", option.removeprefix("a second ")]
     monkeypatch.setattr("sys.argv", words)
     with pytest.raises(SystemExit):
         app()
