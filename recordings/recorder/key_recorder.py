@@ -69,6 +69,8 @@ def record_keys(
     if wanted.part_size or wanted.part_duration or wanted.sights:
         raise TouchlineError("--keys records any keys into one file; leave --part-size, --part-duration, --sights out")
     check_protected(ListenSettings(listen=settings.listen, insecure=settings.insecure))
+    if settings.listen is not None and settings.connect is not None:
+        raise TouchlineError(f"--listen is in place of --connect {settings.connect}; leave one of them out")
     connect = None if settings.listen is not None else settings.connect or DEFAULT_ENDPOINT
 
     def open_bus(patience: float) -> ZenohBus:

@@ -159,6 +159,8 @@ def replay(
         raise TouchlineError(
             f"--connect {connect}: no account of a host with credentials may publish a replay; leave --connect out"
         )
+    if connect is not None and listening.listen is not None:
+        raise TouchlineError(f"--listen is in place of --connect {connect}; leave one of them out")
     listen = options.endpoint_of(listening) if connect is None else None
     opened_page = open_page(from_options(WebSettings, **page)) if web else None
     if not is_match(files):

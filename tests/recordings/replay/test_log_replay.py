@@ -146,6 +146,7 @@ def test_log_times_as_far_apart_as_mcap_can_say_are_played_as_fast_as_possible(t
         (["--to", "inf"], '"inf" is a time that no recording has'),
         (["--rate", "inf"], "--rate is inf; give a number"),
         (["--rate", "2", "--fast"], "--fast and --rate 2 are two speeds; give one of them"),
+        (["--listen", "tcp/127.0.0.1:0"], "--listen is in place of --connect tcp"),
         (["--behind", "inf"], "--behind is inf; give a number"),
         (["--from", "9"], "--from 9 is after the last message at 0.49 s; begin earlier"),
         (["--from", "0.3", "--to", "0.2"], "--to 0.2 is before --from 0.3; end later"),
