@@ -27,6 +27,7 @@ class Keys:
         Raises:
             TouchlineError: a text is none of these.
         """
+        self._names: dict[str, str] = {}  # key → that of its topic
         self._selection = settings.selection
         self._prefix = prefix.rstrip("/") + "/" if prefix else ""
         self._renamed: dict[str, str] = {}
@@ -42,16 +43,15 @@ class Keys:
         """The key of a topic; None for one that is not selected.
 
         Raises:
-            BusError: it cannot be a key.
+            TouchlineError: it cannot be a key, or is that of another topic, too.
         """
-        key = self._selection.key_of(topic)
-        if key is None:
+        if (name := self._selection.key_of(topic)) is None:
             return None
-        for old, new in self._renamed.items():
-            if key == old or key.startswith(old + "/"):
-                key = new + key[len(old) :]
-                self.unused.discard(old)
-                break
+        old = next((one for one in self._renamed if f"{name}/".startswith(f"{one}/")), "")
+        self.unused.discard(old)
+        key = self._renamed.get(old, "") + name[len(old) :]
+        if (other := self._names.setdefault(key, name)) != name:
+            raise TouchlineError(f"--rename: {other} and {name} are both {key}; leave one out with --exclude")
         key = self._prefix + key
         try:
             check_key(key)

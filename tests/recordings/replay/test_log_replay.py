@@ -152,11 +152,12 @@ def test_log_times_as_far_apart_as_mcap_can_say_are_played_as_fast_as_possible(t
         (["--from", "0.3", "--to", "0.2"], "--to 0.2 is before --from 0.3; end later"),
         (["--rename", "robot1"], '--rename is "robot1"; write the old and the new key: robot1/odom=robot2/odom'),
         (["--rename", "robot=spare"], "--rename: no topic has the key robot; `touchline info` lists them"),
+        (["--rename", "robot1/odom=image"], "--rename: robot1/odom and image are both image; leave one out with"),
         (["--only", "arm/**"], "no message is selected; `touchline info .*` lists the keys"),
     ],
 )
 def test_what_cannot_be_replayed_is_refused_in_one_line(tmp_path, network, words, fault):
-    file = write_mcap(tmp_path / "log.mcap", drive(50))
+    file = write_mcap(tmp_path / "log.mcap", [*drive(50), ("/image", 1, b"")])
     result = replay(network, file, *words)
     assert result.exit_code == 2
     found = " ".join(result.output.split())
