@@ -92,9 +92,9 @@ class Child:
         with suppress(OSError):
             self._in.close()
         for number in (None, signal.SIGTERM, signal.SIGKILL):
-            if number is not None:
-                self._popen.send_signal(number)
-            with suppress(subprocess.TimeoutExpired):
+            with suppress(subprocess.TimeoutExpired, PermissionError):  # another user's ends with its input
+                if number is not None:
+                    self._popen.send_signal(number)
                 self._popen.wait(PROGRAM_ENDS_S if number is not signal.SIGKILL else None)
                 break
         self._out.close()

@@ -3,12 +3,15 @@
 import json
 import os
 import signal
+import subprocess
 import sys
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 
 from robot_agent.process.stdio.answers import AnswerFault
+from robot_agent.process.stdio.child import Child
 from robot_agent.process.stdio.program import ProgramEndedError, StdioProgram, briefing_line
 from robot_agent.sdk.contract import Briefing
 from schemas.errors import TouchlineError
@@ -205,3 +208,13 @@ def test_it_ends_with_its_agent_also_when_that_is_killed(tmp_path: Path) -> None
     os.kill(pid, signal.SIGKILL)
     os.waitpid(pid, 0)
     wait_for(lambda: not is_running(child), "the end of the program")
+
+
+def test_a_program_that_runs_as_another_user_is_left_to_end_with_its_input(monkeypatch: pytest.MonkeyPatch) -> None:
+    refuse = Mock(side_effect=PermissionError)
+    child = Child([sys.executable, "-c", "import signal; signal.pause()"])
+    with monkeypatch.context() as patched:
+        patched.setattr(subprocess.Popen, "send_signal", refuse)
+        child.close()
+    assert refuse.call_count == 2
+    child.close()
