@@ -80,7 +80,7 @@ class ReadingChecks:
         sensors = {}
         for name, reading in readings.sensors.items():
             taken = time - reading.age
-            fault = None if _is_finite(taken, *_numbers(reading)) else "a reading is not finite"
+            fault = "a reading is not finite" if not _is_finite(taken, *_numbers(reading)) else _lead(taken, now)
             if not self._refuses(name, fault, taken, faults):
                 sensors[name] = reading
         return replace(readings, motion=motion, picture=picture, sensors=sensors), faults
@@ -105,8 +105,8 @@ class ReadingChecks:
         speed = math.hypot(motion.vx, motion.vy)
         if speed > _FASTEST * self._top_speed or abs(motion.omega) > _FASTEST * self._top_turn_rate:
             return f"a robot does not drive at {speed:.3g} m/s and {motion.omega:.3g} rad/s"
-        if time > now + _FUTURE:
-            return f"a reading is {time - now:.3f} s in the future"
+        if ahead := _lead(time, now):
+            return ahead
         if self._last is not None and time < self._last[0]:
             return f"a reading is {self._last[0] - time:.3f} s older than the one before"
         excess = 0.0 if self._last is None else self._excess(self._last, time, motion)
@@ -136,11 +136,14 @@ def _picture_fault(picture: Picture, now: float) -> str | None:
     bodies = [number for body in picture.obstacles for number in structs.astuple(body)]
     if not _is_finite(picture.time, *ball, *bodies, height or 0.0):
         return "a picture has numbers that are not finite"
-    if picture.time > now + _FUTURE:
-        return f"a picture is {picture.time - now:.3f} s in the future"
     if picture.time < now - OLDEST:
         return f"a picture is {now - picture.time:.3g} s old, at most {OLDEST:g}"
-    return None
+    return _lead(picture.time, now, "picture")
+
+
+def _lead(taken: float, now: float, what: str = "reading") -> str | None:
+    """The fault of what was taken later than now."""
+    return f"a {what} is {taken - now:.3f} s in the future" if taken > now + _FUTURE else None
 
 
 def _numbers(reading: Reading) -> list[float]:

@@ -71,7 +71,9 @@ def test_pictures_and_sensors_that_are_not_finite_or_from_the_future_are_refused
     readings, faults = accepted(checks, 1.0, picture=nan, sensors={"front": scan, "north": compass})
     assert readings.picture is None and readings.sensors == {"north": compass}
     assert faults == ["camera: a picture has numbers that are not finite", "front: a reading is not finite"]
-    assert "1.000 s in the future" in accepted(checks, 1.0, picture=late)[1][0]
+    ahead = {"north": CompassReading(age=-1.0, heading=0.1)}
+    faults = accepted(checks, 1.0, picture=late, sensors=ahead)[1]
+    assert faults == [f"{one} is 1.000 s in the future" for one in ("camera: a picture", "north: a reading")]
     assert accepted(checks, 50.0, picture=late)[1] == ["camera: a picture is 48 s old, at most 2"]
 
 
