@@ -1,5 +1,6 @@
 """The command group that prints every expected failure as one line on stderr and sets the exit status."""
 
+import errno
 import sys
 from typing import Any
 
@@ -30,6 +31,10 @@ class CommandGroup(TyperGroup):
             sys.exit(_say(str(error), WRONG))
         except MatchFailedError as error:
             sys.exit(_say(str(error), FAILED))
+        except OSError as error:
+            if error.errno != errno.ENOSPC:
+                raise
+            sys.exit(_say(f"{error.filename or 'standard output'}: {error.strerror}; make room there", FAILED))
         except typer.Abort:
             sys.exit(FAILED)
         sys.exit(status if isinstance(status, int) else 0)

@@ -215,6 +215,15 @@ def test_the_command_line_loads_nothing_heavy() -> None:
     assert found.stdout.split() == []
 
 
+def test_standard_output_on_a_full_disk_is_one_line() -> None:
+    with Path("/dev/full").open("w") as full:
+        run = subprocess.run([sys.executable, "-m", "touchline", "topics"], stdout=full, stderr=subprocess.PIPE)
+    assert (run.returncode, run.stderr) == (
+        1,
+        b"touchline: standard output: No space left on device; make room there\n",
+    )
+
+
 def test_the_topic_table_is_printed_whole() -> None:
     lines = touchline("topics").stdout.splitlines()
     for name, topic in TOPICS.items():
