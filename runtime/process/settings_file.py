@@ -26,9 +26,13 @@ def write_settings(settings: Settings, path: Path) -> None:
 
     Raises:
         OSError: the file cannot be written.
+        TouchlineError: the settings have a path that is no UTF-8.
     """
-    with written_whole(path, private=True) as draft:
-        draft.write_text(settings.model_dump_json(indent=2) + "\n", "utf-8")
+    try:
+        with written_whole(path, private=True) as draft:
+            draft.write_text(settings.model_dump_json(indent=2) + "\n", "utf-8")
+    except ValueError as error:
+        raise TouchlineError(f"a path, as of the current folder, is no UTF-8; rename that ({error})") from None
 
 
 def read_settings(model: type[S], source: str) -> S:
@@ -44,9 +48,7 @@ def read_settings(model: type[S], source: str) -> S:
     except ValueError as error:
         raise TouchlineError(f"{name}: not JSON: {error}") from None
     if not isinstance(content, dict):
-        raise TouchlineError(
-            f"{name}: not settings; write a JSON object with the fields {', '.join(model.model_fields)}"
-        )
+        raise TouchlineError(f"{name}: not settings; write a JSON object of {', '.join(model.model_fields)}")
     return validate_tables(model, content, name, {})
 
 

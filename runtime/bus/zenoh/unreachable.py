@@ -45,10 +45,8 @@ def _refused(connect: str, credentials: Credentials | None) -> str:
     if credentials is None:
         who, remedy = "a client without credentials", "add --credentials FILE, or set TOUCHLINE_CREDENTIALS"
     else:
-        who, remedy = (
-            f'the user "{credentials.user.value}"',
-            "check --credentials: the file must be of the host's own set",
-        )
+        who = f'the user "{credentials.user.value}"'
+        remedy = "check --credentials: the file must be of the host's own set"
     return (
         f"--connect {connect}: what listens there does not admit {who}, or is no host that is ready; {remedy} "
         f"(`touchline health --doctor --connect {connect}` examines port and certificate)"

@@ -47,6 +47,11 @@ def test_settings_that_are_written_are_read_again_also_from_standard_input(
     assert read_settings(type(EXAMPLES[module]), "-") == EXAMPLES[module]
 
 
+def test_a_path_that_is_no_utf_8_is_one_line(tmp_path: Path) -> None:
+    with pytest.raises(TouchlineError, match=r"is no UTF-8; rename that \(.*'\\udcff'"):
+        write_settings(RecorderSettings(out=tmp_path / "\udcff.mcap"), tmp_path / "settings.json")
+
+
 def test_a_settings_file_is_for_its_owner_alone(tmp_path: Path) -> None:
     file = tmp_path / "settings.json"
     file.touch(0o644)
@@ -68,7 +73,7 @@ WRONG: dict[str, tuple[type[Settings], object, str]] = {
         "record.sight is not known; did you mean",
     ),
     "a key of the match": (HostSettings, {"config": {"seed": -1}}, "config.seed is -1; at least 0"),
-    "a list": (ListenSettings, [], "not settings; write a JSON object with the fields listen, credentials, insecure"),
+    "a list": (ListenSettings, [], "not settings; write a JSON object of listen, credentials, insecure"),
 }
 
 
