@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.config.shipped_teams import brain_of
 from schemas.errors import TouchlineError
@@ -59,6 +60,7 @@ def series(
     Example: touchline series --cyan simple --magenta nubot --rules msl --seeds 1-20 --both-sides
     """
     options.need_statistics()
+    from touchline.launch.run_folder import new_run_folder
     from touchline.matches.engine.failures import keep_failures
     from touchline.matches.engine.play_list import play_list
     from touchline.matches.series.match_row import row_of, rows_of
@@ -93,7 +95,7 @@ def series(
             return float(outcome.goals[first] - outcome.goals[second])
 
         planned = [one.planned for one in plan.matches]
-        folder = record or Path("runs") / f"{config.name}-failures"
+        folder = record or new_run_folder(f"{config.name}-failures", WallClock())
         kept = keep_failures(planned, played.outcomes, lead, failures, folder, jobs, json=json)
     failed = _print(plan, rows_of(plan, played.outcomes), kept, json=json)
     if played.is_interrupted or (kept is not None and kept.is_interrupted):

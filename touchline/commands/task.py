@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from runtime.process.clock import WallClock
 from schemas.config.shipped_teams import brain_of
 from schemas.errors import TouchlineError
 from touchline.commands.cli import options
@@ -65,7 +66,7 @@ def run(
         float | None, typer.Option(metavar="SCORE", help="With --failures: an episode with this score is no failure.")
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder of these recordings; by default runs/ and the task.")
+        Path | None, typer.Option(metavar="DIR", help="Folder of these recordings; by default a new one in runs/.")
     ] = None,
     show: Annotated[
         bool, typer.Option("--show", help="With --failures: then show the worst one, as touchline replay --web does.")
@@ -81,6 +82,7 @@ def run(
     Example: touchline task run keepaway_3v2 --brain simple --episodes 50 --failures 5
     """
     options.need_statistics()
+    from touchline.launch.run_folder import new_run_folder
     from touchline.matches.engine.failures import keep_failures
     from touchline.matches.engine.play_list import play_list
     from touchline.matches.task.episodes import episodes_of, result_of
@@ -89,13 +91,15 @@ def run(
     options.check_numbers(at_least=at_least, below=below)
     if not failures and (show or (below, out) != (None, None)):
         raise TouchlineError("--below, --out and --show are about the recordings of --failures; give that, too")
+    if out is not None and any(out.glob("*.mcap")):
+        raise TouchlineError(f"{out}: has recordings; give another folder with --out, or move that one away")
     loaded = load_task(task, brain_of(brain) if brain is not None else None, options.settings_of(change or []))
     planned = episodes_of(loaded, _seeds(episodes, seeds))
     played = play_list(planned, jobs, loaded.name, _sentence, json=json)
     result = result_of(loaded, planned, played.outcomes)
     kept = None
     if failures and not played.is_interrupted:
-        folder = out or Path("runs") / f"{loaded.name}-failures"
+        folder = out or new_run_folder(f"{loaded.name}-failures", WallClock())
         worth = (planned, played.outcomes, lambda one: one.value)
         kept = keep_failures(*worth, failures, folder, jobs, below, json=json)
     _print(loaded, result, kept, json=json)

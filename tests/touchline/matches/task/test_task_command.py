@@ -118,10 +118,12 @@ def test_failures_leave_recordings_that_verify_and_the_events_that_they_share(ow
     (shared,) = content["failures"]["shared"]
     assert shared["event"] == "turned away" and shared["failures"] > 0
     assert len(list((tmp_path / "kept").glob("*.mcap"))) == 3
+    again = task("run", own, "--failures", "3", "--out", tmp_path / "kept")
+    assert again.exit_code == 2 and "kept: has recordings; give another folder with --out" in again.output
 
 
 def test_the_worst_episode_is_shown_and_the_status_is_that_of_the_task(
-    own: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    own: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shown: dict[str, object] = {}
 
@@ -129,10 +131,9 @@ def test_the_worst_episode_is_shown_and_the_status_is_that_of_the_task(
         shown.update(files=files, rate=rate, web=web)
 
     monkeypatch.setattr("touchline.commands.replay.replay", replay)
-    words = ("--episodes", "2", "--at-least", "5", "--failures", "1", "--out", tmp_path / "kept", "--show")
-    result = task("run", own, *words)
+    result = task("run", own, "--episodes", "2", "--at-least", "5", "--failures", "1", "--show")
     assert (result.exit_code, type(result.exception)) == (1, SystemExit)
-    assert shown == {"files": [*(tmp_path / "kept").glob("*.mcap")], "rate": 1.0, "web": True}
+    assert shown == {"files": [*Path().glob("runs/get_there-failures-*/*.mcap")], "rate": 1.0, "web": True}
 
 
 def test_only_episodes_below_the_bound_are_failures(own: str, tmp_path: Path) -> None:
