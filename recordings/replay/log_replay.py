@@ -91,8 +91,7 @@ class LogReplay(ReplayLoop):
 
     def _publish(self, message: LogMessage) -> None:
         key = message.key, id(message.topic)
-        publisher = self._of_channel.get(key)
-        if publisher is None:
+        if (publisher := self._of_channel.get(key)) is None:
             publisher = self._of_channel[key] = self._publisher(message.key, message.topic)
         publisher.put(message.payload)
         self._show(message)
@@ -127,8 +126,7 @@ def seconds(text: str) -> float:
     Raises:
         TouchlineError: it is no number, or no file has this time.
     """
-    time = seconds_in(text)
-    if time is None:
+    if (time := seconds_in(text)) is None:
         raise TouchlineError(f'"{text}" is no time in a log; give seconds since its first message')
     return time
 

@@ -131,10 +131,9 @@ class ReadingChecks:
 
 
 def _picture_fault(picture: Picture, now: float) -> str | None:
-    ball = picture.ball[:4] if picture.ball is not None else ()
-    height = picture.ball.z if picture.ball is not None else None
+    ball = (*picture.ball[:4], picture.ball.z or 0.0) if picture.ball is not None else ()
     bodies = [number for body in picture.obstacles for number in structs.astuple(body)]
-    if not _is_finite(picture.time, *ball, *bodies, height or 0.0):
+    if not _is_finite(picture.time, *ball, *bodies):
         return "a picture has numbers that are not finite"
     if picture.time < now - OLDEST:
         return f"a picture is {now - picture.time:.3g} s old, at most {OLDEST:g}"

@@ -104,10 +104,8 @@ class Child:
         if not self._unwritten:
             return
         try:
-            written = os.write(self._in.fileno(), self._unwritten)
+            self._unwritten = self._unwritten[os.write(self._in.fileno(), self._unwritten) :]
         except BlockingIOError:
             return
         except BrokenPipeError:
             self._unwritten = b""  # it has closed its input; the end of its output reports what became of it
-            return
-        self._unwritten = self._unwritten[written:]
