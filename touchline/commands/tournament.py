@@ -1,11 +1,13 @@
 """`touchline tournament`: a cup between many teams, its table, its pages, and its verification."""
 
+import re
 from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from schemas.config.shipped_teams import policy_file
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.commands.cli import options
@@ -97,6 +99,7 @@ def digest(
 
     Example: touchline tournament digest my_team.my_team:MyTeam
     """
+    from robot_agent.loading.brain_folders import BrainFolders
     from touchline.matches.cup.cup_config import CupConfig, TeamEntry
     from touchline.matches.cup.cup_plan import config_with
     from touchline.matches.engine.code_digest import code_digest
@@ -105,6 +108,11 @@ def digest(
     config = config_with(teams[0], CupConfig(teams=teams))
     if not team_code(config, Side.CYAN, Path.cwd()).own:
         raise TouchlineError(f"{brain}: no file of it is in {Path.cwd()}; a digest is for a team's own files")
+    module, _, name = brain.partition(":")
+    file = BrainFolders().file_of(module)
+    code = file.read_text("utf-8", "replace") if file is not None else ""  # which is not run: it may be a rival's
+    if not policy_file(brain) and not re.search(rf"\b{re.escape(name)}\b|import \*", code):
+        raise TouchlineError(f"{brain}: {file or module} has no {name}; name the module and its class")
     typer.echo(code_digest(config, Side.CYAN, Path.cwd()))
 
 

@@ -92,6 +92,8 @@ def test_a_team_with_other_files_than_were_submitted_does_not_play(
     monkeypatch.chdir(tmp_path)
     printed = CliRunner().invoke(app, ["tournament", "digest", "own_team:Own"])
     assert printed.exit_code == 0
+    mistyped = CliRunner().invoke(app, ["tournament", "digest", "own_team:Owm"])
+    assert mistyped.exit_code == 2 and "own_team.py has no Owm; name the module" in mistyped.output
     digest = printed.stdout.strip()
     (tmp_path / "mini.toml").write_text(CUP.replace('"random"', f'"own_team:Own"\ndigest = "{digest}"'))
     mini_cup(tmp_path).close()
