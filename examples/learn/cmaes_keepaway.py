@@ -13,10 +13,14 @@ from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
-from cmaes import CMA
 from report import Curve, parser_of, report
 
 from touchline.learn import scores
+
+try:
+    from cmaes import CMA
+except ModuleNotFoundError as error:
+    raise SystemExit(f"{error}; pip install cmaes") from None
 
 TASK = "keepaway_3v2"
 NUMBERS = {"pressed": (1.0, 2.2, 4.0), "long": (1.0, 3.0, 4.8), "corner": (3.0, 4.0, 5.0), "arriving": (2.0, 3.5, 5.0)}
