@@ -149,6 +149,8 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
             TouchlineError: the seed is no whole number from 0 to 2^63 - 1, a brain cannot be loaded, the recording
                 cannot be written, or no window can be opened.
         """
+        if not isinstance(options, Mapping | None):
+            raise TouchlineError(f"options are {options!r}; give a dict, such as {{'record': 'episode.mcap'}}")
         record = (options or {}).get("record")
         if not isinstance(record, str | Path | None):
             raise TouchlineError(f"record is {record!r}; give the path of an MCAP file")

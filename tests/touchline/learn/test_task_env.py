@@ -339,6 +339,8 @@ def test_parameters_that_the_match_file_names_may_be_given() -> None:
 def test_a_recording_without_a_path_is_one_clear_error(rovers: Callable[..., TaskEnv]) -> None:
     with pytest.raises(TouchlineError, match="record is 3; give the path of an MCAP file"):
         rovers().reset(1, {"record": 3})
+    with pytest.raises(TouchlineError, match=r"options are \[1\]; give a dict"):
+        rovers().reset(1, [1])
 
 
 @pytest.mark.parametrize("seed", [-1, 2**63, 1.5, True, "one"])
