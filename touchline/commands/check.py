@@ -25,8 +25,7 @@ def check(
         str | None, typer.Option(help="Program that speaks the protocol over Zenoh, in place of a brain.")
     ] = None,
     match: Annotated[
-        Path | None,
-        typer.Option("--match-file", help="Robots, profile and rules; by default five a side."),
+        Path | None, typer.Option("--match-file", help="Robots, profile and rules; by default five a side.")
     ] = None,
     seconds: Annotated[float, typer.Option(min=1.0, max=600.0, help="Simulated s of the match that is played.")] = 12.0,
     for_hardware: Annotated[

@@ -17,8 +17,7 @@ def host(
     match: options.MatchOptions,
     waiting: Annotated[dict[str, Any], FieldsOf(Patience, attendance="wait")],
     more: Annotated[
-        dict[str, Any],
-        FieldsOf(HostSettings, "outcome", "launch_token", "admit", "announcement", "log_format"),
+        dict[str, Any], FieldsOf(HostSettings, "outcome", "launch_token", "admit", "announcement", "log_format")
     ],
 ) -> None:
     """Run the simulation host of a match; robots join with `touchline agent` or `touchline team`.

@@ -10,18 +10,7 @@ from schemas.config.sensors.contact import Bumper, ContactReading
 from schemas.config.sensors.range import RangeFinder, RangeReading
 from schemas.config.task import GameName
 from schemas.messages.sight import Sight
-from touchline.policy.entries import (
-    FAST,
-    OLD,
-    BodyFrame,
-    Entry,
-    direction,
-    flag,
-    place,
-    share,
-    signed,
-    velocity,
-)
+from touchline.policy.entries import FAST, OLD, BodyFrame, Entry, direction, flag, place, share, signed, velocity
 from touchline.policy.interface import Interface
 
 _MINUTE = 60.0

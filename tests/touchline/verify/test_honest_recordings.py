@@ -182,9 +182,7 @@ def test_a_recording_of_some_keys_is_identical_and_the_others_are_named(officiat
     assert contradictions(open_recording(tmp_path / "some.mcap")) == []
 
 
-def test_the_recording_under_a_referee_box_has_its_questions_and_its_end(
-    recorded: Callable[[str], Path],
-) -> None:
+def test_the_recording_under_a_referee_box_has_its_questions_and_its_end(recorded: Callable[[str], Path]) -> None:
     recording = open_recording(recorded("a league's referee box"))
     texts = "\n".join(event.text for _, event in recording.decoded("game/event"))
     assert "repair for magenta2: magenta has not named a robot within 10 s" in texts

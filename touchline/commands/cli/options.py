@@ -36,8 +36,7 @@ Profile = Annotated[
 ]
 Rules = Annotated[str | None, typer.Option(help=f"Rule book: {', '.join(RULE_BOOKS)}, or the path of a file.")]
 Include = Annotated[
-    list[str] | None,
-    typer.Option(help="Include these keys only, such as robot/*/command or team/**; repeatable."),
+    list[str] | None, typer.Option(help="Include these keys only, such as robot/*/command or team/**; repeatable.")
 ]
 Exclude = Annotated[list[str] | None, typer.Option(help="Leave these keys out; repeatable.")]
 From = Annotated[float | None, typer.Option("--from", help="Start, simulated s.")]

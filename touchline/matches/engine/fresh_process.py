@@ -118,8 +118,7 @@ def _run(call: Callable[[Path], Any], folder: Path) -> Any:
 
 def _end_with_parent() -> None:
     """End this process when those who wait for its result are gone."""
-    parent = multiprocessing.parent_process()
-    if parent is not None:
+    if (parent := multiprocessing.parent_process()) is not None:
         parent.join()
         os._exit(1)
 

@@ -156,8 +156,7 @@ def _ask(act: Callable[[Sight], Command], situation: str, sight: Sight, rule: Ru
         command = act(sight)
     except BreachError as error:
         raise BreachError(f"{situation}: {error}", error.raised) from None
-    broken = rule(command, sight)
-    if broken:
+    if broken := rule(command, sight):
         raise BreachError(f"{situation}: {robot} {broken}")
 
 

@@ -129,8 +129,7 @@ class AgentReplay:
             try:
                 yield
             except MatchFailedError as error:
-                cause = error.__cause__
-                if cause is not None:
+                if (cause := error.__cause__) is not None:
                     raised = users_traceback(cause)
                     typer.echo("".join(traceback.format_exception(type(cause), cause, raised)), err=True, nl=False)
                     if self.pdb:
@@ -147,7 +146,6 @@ def parse_agent(text: str, on_the_bus: Mapping[str, object]) -> tuple[str, str]:
     robot, _, brain = text.partition("=")
     if not robot or not brain:
         raise TouchlineError(f'--agent is "{text}"; write it as cyan2=module:Class')
-    given = [option for option, value in on_the_bus.items() if value]
-    if given:
+    if given := [option for option, value in on_the_bus.items() if value]:
         raise TouchlineError(f"--agent replays in this process, without a bus; leave {' and '.join(given)} out")
     return robot, brain
