@@ -56,8 +56,8 @@ def identify(
     called = address.strip()[:_MAX_WORD] if isinstance(address, str) and address.strip() else None
     protocol = _protocol(message.get("protocol"))
     token, team = message.get("token"), message.get("team")
-    if isinstance(token, str) and token:
-        side = of_token(token)
+    if token:
+        side = of_token(token) if isinstance(token, str) else None
         if side is None:
             raise UnknownTeamError("unknown token")
         return Identity(side, called, protocol)

@@ -188,7 +188,9 @@ async def test_a_token_identifies_the_side_and_an_unknown_one_is_turned_away() -
     async with boxed(of_token=tokens.get) as (bench, _, come):
         right = await come(token="secret-of-magenta")
         assert right.commands[0] == "WELCOME Ruby"
-        assert (await come(token="guessed", team="cyan")).gone
+        for guessed in ("guessed", 1, ["secret-of-magenta"]):  # what is no text would else pass for a proof
+            assert (await come(token=guessed, team="magenta")).gone
+        assert not right.gone
         assert any("unknown token" in line for line in bench.logged)
 
 
