@@ -19,9 +19,9 @@ class Holder:
 
 @dataclass(slots=True)
 class Claims:
-    """The agents of all robots. An agent loses its robot when its session ends, and at no other time.
+    """The agents of all robots. An agent loses its robots when its session ends, and at no other time.
 
-    A session whose link was broken gets its robot back if no other agent has claimed it meanwhile.
+    A session whose link was broken gets each robot back that no other agent has claimed meanwhile.
     """
 
     eligibility: Eligibility
@@ -31,11 +31,11 @@ class Claims:
     _unclaimed: set[str] = field(default_factory=set)
     """Robots with the token of an agent that makes no claims."""
     _sessions: set[str] = field(default_factory=set)
-    _former: dict[str, tuple[str, Holder]] = field(default_factory=dict)
-    """Session that is gone → its robot."""
+    _former: dict[str, dict[str, Holder]] = field(default_factory=dict)
+    """Session that is gone → its robots."""
 
-    def set_session(self, session: str, alive: bool) -> str | None:
-        """A session's liveliness token appeared or disappeared; returns the robot that changes with it, or None."""
+    def set_session(self, session: str, alive: bool) -> list[str]:
+        """A session's liveliness token appeared or disappeared; returns the robots that change with it."""
         return self._restore(session) if alive else self._release(session)
 
     def set_unclaimed(self, robot: str, alive: bool) -> None:
@@ -81,19 +81,19 @@ class Claims:
         holder = self.holders.get(robot)
         return holder.source if holder is not None else ""
 
-    def _restore(self, session: str) -> str | None:
+    def _restore(self, session: str) -> list[str]:
         if len(self._sessions) < _MOST:
             self._sessions.add(session)
-        if session not in self._former:
-            return None
-        robot, holder = self._former.pop(session)
-        return robot if self.holders.setdefault(robot, holder) is holder else None
+        former = self._former.pop(session, {})
+        return [robot for robot, holder in former.items() if self.holders.setdefault(robot, holder) is holder]
 
-    def _release(self, session: str) -> str | None:
+    def _release(self, session: str) -> list[str]:
         self._sessions.discard(session)
-        held = next((robot for robot, holder in self.holders.items() if holder.session == session), None)
-        if held is not None:
+        held = {robot: holder for robot, holder in self.holders.items() if holder.session == session}
+        for robot in held:
+            del self.holders[robot]
+        if held:
             while len(self._former) >= _MOST:
                 del self._former[next(iter(self._former))]
-            self._former[session] = (held, self.holders.pop(held))
-        return held
+            self._former[session] = held
+        return list(held)

@@ -75,8 +75,7 @@ class PresenceTracker:
                 self.claims.set_unclaimed(presence.name, presence.alive)
                 changed.append(presence.name)
             elif presence.kind is PresenceKind.SESSION:
-                robot = self.claims.set_session(presence.name, presence.alive)
-                changed += [robot] if robot is not None else []
+                changed += self.claims.set_session(presence.name, presence.alive)
             elif presence.kind is PresenceKind.REFEREE and not presence.alive:
                 self._gone_referees.append(presence.name)
             presence = self._watch.receive(0.0)

@@ -34,8 +34,9 @@ class Claimant:
         )
         self.claim()
 
-    def claim(self):
-        self._pending, self._reply = self.bus.query(CLAIM, self._claim), None
+    def claim(self, robot=None):
+        claim = self._claim.replace(robot=robot or self.robot)
+        self._pending, self._reply = self.bus.query(CLAIM, claim), None
 
     def play(self):
         self.rig.agents[self.robot] = Agent(self.bus, Runner(self.bus, Forward(), self.robot))
@@ -106,6 +107,17 @@ def test_an_agent_that_is_started_again_gets_its_robot_at_once(open_rig):
     second = Claimant(open_rig, "cyan1", 2)
     open_rig.ticks(1)
     assert second.reply.accepted
+
+
+def test_all_robots_of_a_program_that_has_ended_may_be_claimed(open_rig):
+    program = Claimant(open_rig, "cyan1", 1)
+    program.claim("cyan2")
+    open_rig.ticks(1)
+    assert program.reply.accepted
+    program.bus.close()
+    others = [Claimant(open_rig, robot, number) for number, robot in ((2, "cyan1"), (3, "cyan2"))]
+    open_rig.ticks(1)
+    assert [other.reply and other.reply.accepted for other in others] == [True, True]
 
 
 def test_a_claim_is_granted_as_soon_as_the_link_of_the_earlier_agent_expires(open_rig):
