@@ -123,10 +123,11 @@ class Host:
                 return
 
     def _wait_while_paused(self) -> None:
-        """Serve all clients until an operator lets the match run or step."""
+        """Serve all clients until an operator lets the match run or step; no tick decides actions meanwhile."""
         if not self._services.pause.is_paused:
             return
         while self._services.pause.is_paused and not self.stopping:
+            self._services.requests.refuse("the match is paused; ask the referee when it runs again")
             self._services.wait_for_operator(POLL_S)
             self.presence.update()
             self._serve_between_ticks()

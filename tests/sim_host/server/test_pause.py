@@ -8,7 +8,9 @@ import pytest
 from schemas.config.roster import Placement
 from schemas.messages.pace import PaceReply, PaceRequest
 from schemas.messages.scene import SceneOperation, SceneReply, SceneRequest
-from schemas.topics import APPLIED, HEALTH, PACE, SCENE, WORLD
+from schemas.messages.soccer.game import RefereeAction
+from schemas.soccer.game import ActionName
+from schemas.topics import ACTION, APPLIED, HEALTH, PACE, SCENE, WORLD
 from support.host_rig import HostRig
 from support.paused_host import RUN, STEP, ask, pace, paused, stepped_to
 
@@ -76,6 +78,15 @@ def test_what_an_operator_changes_during_a_pause_is_there_after_the_next_step(ri
         stepped_to(rig, 1)
         assert rig.truth("cyan2")["x"] == pytest.approx(-1.0, abs=0.05)
         pace(rig, RUN)
+
+
+def test_the_referee_refuses_actions_during_a_pause_at_once_and_does_not_carry_them_out_later(rig: HostRig) -> None:
+    applied = rig.listen(APPLIED)
+    with paused(rig, 3):
+        reply = ask(rig, RefereeAction(action=ActionName.STOP), ACTION)
+        assert not reply.accepted and "paused" in reply.reason
+        pace(rig, RUN)
+    assert not any(message.actions for message in applied.all())
 
 
 def test_a_match_that_runs_cannot_be_stepped(rig: HostRig) -> None:
