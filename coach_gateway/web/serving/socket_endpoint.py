@@ -76,9 +76,9 @@ class SocketEndpoint:
 
     async def _first_with_token(self, socket: WebSocket) -> str | None:
         """The first message of a page, if it has a known token: it is admitted however many people watch."""
-        with contextlib.suppress(TimeoutError, FaultError, WebSocketDisconnect):
+        with contextlib.suppress(TimeoutError, FaultError):
             async with asyncio.timeout(CLIENT_S):
-                text = await socket.receive_text()
+                text = (await socket.receive()).get("text") or ""  # it may leave, or send bytes
             if self._tokens.role_of(read_request(text).token) not in (None, TokenRole.SPECTATOR):
                 return text
         return None
