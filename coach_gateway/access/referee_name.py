@@ -23,9 +23,14 @@ def terminal_name() -> str:
         user = getpass.getuser()
     except (KeyError, OSError):  # a user without an entry in the system's list of users
         user = "unknown"
-    return f"terminal_{blake2b(f'{user}@{platform.node()}'.encode(), digest_size=4).hexdigest()}"
+    return f"terminal_{_digest(f'{user}@{platform.node()}')}"
 
 
 def box_name(host: str, port: int) -> str:
     """The name of a league's box: two base stations that are connected to one box are one referee."""
-    return re.sub(r"[^a-z0-9]", "_", f"box_{host.lower()}_{port}")[:_LONGEST]
+    name = re.sub(r"[^a-z0-9]", "_", f"box_{host.lower()}_{port}")
+    return name if len(name) <= _LONGEST else f"box_{_digest(name)}"
+
+
+def _digest(text: str) -> str:
+    return blake2b(text.encode(), digest_size=4).hexdigest()

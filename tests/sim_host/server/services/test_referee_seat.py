@@ -174,3 +174,5 @@ def test_names_of_referees_are_names_on_the_bus() -> None:
     for name in (gateway_name("5f0c6e1d"), terminal_name(), box_name("fe80::1%eth0.example.org", 28097)):
         assert RefereeAction(action=ActionName.START, referee=name).referee == name
     assert terminal_name() == terminal_name()
+    names = {box_name(f"box-of-field-{field}.the-tournament.example.org", port) for field in "ab" for port in (1, 2)}
+    assert len(names) == 4
