@@ -3,6 +3,7 @@
 No file in these folders hides a module of Python, of Touchline or of an installed package.
 """
 
+import os
 import sys
 from collections.abc import Collection
 from pathlib import Path
@@ -57,6 +58,9 @@ class BrainFolders:
         return self.find(stem.with_suffix(".py"), stem / "__init__.py")
 
     def find(self, *names: Path | str) -> Path | None:
-        """The first of these files or folders in the first folder that has one; None if there is none."""
+        """The first of these files or folders in the first folder that has one; None if there is none.
+
+        A word of a command line may be no name of a file, but a whole program.
+        """
         found = (path / name for path in self.paths for name in names)
-        return next((path for path in found if path.exists()), None)
+        return next((path for path in found if os.access(path, os.F_OK)), None)

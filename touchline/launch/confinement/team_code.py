@@ -1,5 +1,6 @@
 """Where the code of a team lies: what its robots have to read, and what the other team should not."""
 
+import os
 import shutil
 import sys
 import sysconfig
@@ -32,7 +33,7 @@ def team_code(config: MatchConfig, side: Side, beside_match: Path | None) -> Tea
     program = team_program(config, side, beside_match)
     if program:
         files = [path for path in map(_file_of, program[:1]) if path is not None]
-        files += [Path(word).absolute() for word in program[1:] if Path(word).exists()]
+        files += [Path(word).absolute() for word in program[1:] if os.access(word, os.F_OK)]
         own = tuple(file for file in files if not any(file.is_relative_to(one) for one in system_folders()))
         return TeamCode(own[-1].parent if own else None, own)
     brains = [team.brain or ""]

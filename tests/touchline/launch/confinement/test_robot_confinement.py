@@ -72,6 +72,10 @@ def test_files_on_the_command_line_of_a_program_are_found_from_its_working_folde
     command = command_line(["./robot", "--fast", "one_team.py", "lions/brain.py", "3"])
     assert command == (f"{here}/robot", "--fast", f"{here}/one_team.py", f"{here}/lions/brain.py", "3")
     assert command_line(["python3"]) == ("python3",)
+    program = ["env", "python3", "-c", "pass; " * 100]
+    assert command_line(program) == tuple(program)
+    config = load_match(None, {"teams.cyan.command": program, "teams.magenta.brain": "simple"})
+    assert team_code(config, Side.CYAN, None).own == ()
 
 
 def test_a_team_s_limits_replace_those_of_the_match() -> None:
