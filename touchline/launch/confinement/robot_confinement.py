@@ -9,6 +9,7 @@ from pathlib import Path
 from runtime.process.leash import OwnConfinement
 from schemas.config.confinement import Isolation, Limits
 from schemas.config.match_config import MatchConfig
+from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.launch.confinement.bubblewrap import NOBODY, bubblewrap, check_bubblewrap
 from touchline.launch.confinement.robot_environment import robot_environment
@@ -144,8 +145,25 @@ def team_confinements(config: MatchConfig, beside_match: Path | None, runs: Path
                 confinement, user=user if user != os.geteuid() else None, visible=visible, hidden=hidden
             )
             check_bubblewrap(confinement.visible or (), hidden, confinement.user)
+            if confinement.user is not None:
+                _check_open(runs)
         confinements[side] = confinement
     return confinements
+
+
+def _check_open(runs: Path) -> None:
+    """Check that nobody may enter the folders above this one, in which each robot has its working folder.
+
+    Raises:
+        TouchlineError: a folder is closed.
+    """
+    above = [path for path in runs.absolute().parents if path.exists()]
+    closed = next((path for path in above if not path.stat().st_mode & 0o001), None)
+    if closed is not None:
+        raise TouchlineError(
+            f"--isolate bubblewrap: robots that root launches run as nobody, who may not enter {closed}; "
+            "start the match in another folder, or as another user"
+        )
 
 
 def _view(

@@ -166,6 +166,14 @@ def test_a_missing_bubblewrap_is_named_with_the_command_that_installs_it(monkeyp
         team_confinements(load_match(None, {"isolate": "bubblewrap"}), None, Path("runs"))
 
 
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root's robots run as another user")
+def test_root_is_told_where_its_isolated_robots_cannot_have_their_folders(here: Path) -> None:
+    config = load_match(None, {"isolate": "bubblewrap"})
+    (here / "closed").mkdir(mode=0o700)
+    with pytest.raises(TouchlineError, match=r"run as nobody, who may not enter .*closed; start the match in another"):
+        team_confinements(config, None, here / "closed" / "runs")
+
+
 def test_a_side_that_another_machine_launches_gets_no_confinement_here() -> None:
     config = load_match(None, {"teams.magenta.remote": True})
     assert list(team_confinements(config, None, Path("runs"))) == [Side.CYAN]
