@@ -1,8 +1,9 @@
 // How far robots have to stay from the ball, from the signal of a restart until the ball is in play.
 
 import { SIDES } from "../shared/palette.js";
-import { circle, write } from "../shared/shapes.js";
+import { circle, plateOf, write } from "../shared/shapes.js";
 
+const SIZE = 11, WEIGHT = 650;
 const SIDED = new Set(["kick_off", "free_kick", "goal_kick", "throw_in", "corner", "penalty"]);
 
 /** The circles of a state: [metres from the ball's spot, robots it is for, side of its colour]. */
@@ -32,8 +33,9 @@ export function drawDistances(context, projection, match, world) {
     const ends = [-1, 1].map((end) => projection.y(spot.y) + end * projection.length(radius));
     const [first, second] = place ? ends.toReversed() : ends; // labels of two circles stand at two ends
     const top = first > 12 && first < projection.height - 12 ? first : second;
-    write(context, `${radius} m: ${who}`, clamp(projection.x(spot.x), 70, projection.width - 70), top, 11, {
-      colour: side ? SIDES[side].line : "#ffffff", ground: "#0b1c14cc",
+    const text = `${radius} m: ${who}`, half = plateOf(context, text, 0, top, SIZE, WEIGHT).right;
+    write(context, text, clamp(projection.x(spot.x), half, projection.width - half), top, SIZE, {
+      colour: side ? SIDES[side].line : "#ffffff", weight: WEIGHT, ground: "#0b1c14cc",
     });
   });
 }

@@ -175,6 +175,20 @@ def test_restart_distances_are_those_of_the_rules_while_they_matter(watched) -> 
     assert shown["play"] == []
 
 
+def test_the_labels_of_restart_distances_are_within_the_picture(watched) -> None:
+    script = """async () => {
+        const { drawDistances } = await import("/field/distances.js"), { setup } = window.touchline.match;
+        const { Projection } = await import("/shared/projection.js"), projection = new Projection();
+        const context = document.createElement("canvas").getContext("2d"), ends = [];
+        context.fillText = (text, left) => ends.push(...[-0.5, 0.5].map((end) => left + end * context.measureText(text).width));
+        projection.fit(setup.pitch, 360, undefined, 1);
+        for (const x of [-11, 11]) drawDistances(context, projection, { setup, state: { phase: "corner", side: "cyan", spot: { x, y: 7 } } });
+        return [projection.width, ...ends];
+    }"""
+    width, *ends = watched[1].ask(script)
+    assert len(ends) == 8 and all(0.0 <= end <= width for end in ends)
+
+
 def test_between_two_pictures_bodies_move_evenly_and_those_set_down_jump(watched) -> None:
     script = """async () => {
         const { FrameBuffer } = await import("/link/frame_buffer.js"), frames = new FrameBuffer();
