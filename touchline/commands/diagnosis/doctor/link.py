@@ -95,8 +95,9 @@ def _no_setup(bus: Bus, error: Exception) -> Finding:
 
 
 def _listen(bus: Bus) -> tuple[Health | None, list[tuple[int, int]]]:
-    """The newest report on the host's health, and times of sending and arrival of its messages, in ns."""
-    subscriptions = [bus.subscribe(HEALTH, history=True), bus.subscribe(WORLD)]
+    """The newest report on the host's health, and times of sending and arrival of new messages, in ns."""
+    history = bus.subscribe(HEALTH, history=True)
+    subscriptions = [history, bus.subscribe(HEALTH), bus.subscribe(WORLD)]
     newest, stamps = None, []
     until = bus.clock.now() + REQUEST_S
     while bus.clock.now() < until:
@@ -104,7 +105,7 @@ def _listen(bus: Bus) -> tuple[Health | None, list[tuple[int, int]]]:
             received = subscription.receive(POLL_S)
             if received is None:
                 continue
-            if received.stamp is not None:
+            if received.stamp is not None and subscription is not history:
                 stamps.append((received.stamp.sent_ns, bus.clock.unix_ns()))
             if received.topic is HEALTH:
                 newest = valid(received.message) or newest

@@ -64,7 +64,9 @@ def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @contextmanager
-def host(setup: bytes | None = None, protection: Protection | None = None) -> Iterator[ZenohBus]:
+def host(
+    setup: bytes | None = None, protection: Protection | None = None, *, reports_once: bool = False
+) -> Iterator[ZenohBus]:
     """A host that replies with a setup and reports its health; one robot has joined."""
     health = Health(tick=1, time=0.02, pace="realtime", real_time_factor=1.0, robots={"cyan1": RobotHealth(alive=True)})
     stop = threading.Event()
@@ -73,8 +75,10 @@ def host(setup: bytes | None = None, protection: Protection | None = None) -> It
         bus.declare_alive(PresenceKind.HOST, "host")
 
         def serve() -> None:
+            reports.put(health)
             while not stop.is_set():
-                reports.put(health)
+                if not reports_once:
+                    reports.put(health)
                 query = server.receive(0.02)
                 if query is not None:
                     query.reply_payload(setup or PLAIN.encode())
@@ -169,6 +173,13 @@ def test_a_clock_that_is_an_hour_off_is_a_warning_with_its_figure(ahead_s: float
     assert f"s {word}, ±" in finding.text
     assert 3599 < float(finding.text.split()[4]) < 3601
     assert "set-ntp" in finding.remedy
+
+
+def test_the_age_of_a_host_s_last_report_is_no_offset_of_its_clock() -> None:
+    with host(reports_once=True) as bus:
+        found = findings(bus.endpoint)
+    assert found["clock"].text == "the host has published nothing, so its clock is unknown"
+    assert found["robots"].status is Status.OK
 
 
 def test_credentials_of_the_host_s_own_set_are_accepted(tmp_path: Path) -> None:
