@@ -8,10 +8,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from coach_gateway.match.host_change import HostChangeDetector
 from coach_gateway.match.orders import OrderBook, OrderFollower
 from coach_gateway.timing import POLL_S, STATE_SETTLES_S
-from runtime.bus.contract import Bus, PresenceKind, PresenceWatch, ReceivedMessage, Subscription
+from runtime.bus.contract import Bus, PresenceKind, PresenceWatch, ReceivedMessage, Stamp, Subscription
 from runtime.bus.host_watch import HostWatch
 from schemas.messages.health import Health
 from schemas.messages.radio import Belief, Radio
@@ -100,7 +99,8 @@ class MatchFollower:
         """The first tick seen."""
         self.last: MatchTime | None = None
         """The newest tick seen."""
-        self._host_change = HostChangeDetector()
+        self._stamps: dict[str, Stamp] = {}
+        """Key → the newest stamp of this host."""
         self._newest_tick = 0
         self._payloads: dict[str, bytes] = {}
         self._world: World | None = None
@@ -243,8 +243,18 @@ class MatchFollower:
                 yield message, received
 
     def _check_host(self, received: ReceivedMessage, news: MatchNews) -> None:
-        """With the first message of another host, forget what the host before has published."""
-        if not self._host_change.is_new_host(received):
+        """With the first message of another host, which counts from 0 again, forget what the host before published.
+
+        A message that is only delivered again, as happens when a link comes back, is older than the newest one.
+        """
+        stamp, before = received.stamp, self._stamps.get(received.key)
+        if stamp is None or (before is not None and stamp.sent_ns <= before.sent_ns):
+            return
+        is_new = before is not None and stamp.sequence <= before.sequence
+        if is_new:
+            self._stamps.clear()
+        self._stamps[received.key] = stamp
+        if not is_new:
             return
         self.host_changes += 1
         self.health = self.first = self.last = self._world = None
