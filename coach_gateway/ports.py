@@ -37,18 +37,20 @@ def inheritance_of(sockets: Sequence[socket.socket]) -> dict[str, str]:
     return {INHERITED: ",".join(str(one.fileno()) for one in sockets)} if sockets else {}
 
 
-def bound_socket(option: str, address: str, port: int, kind: socket.SocketKind) -> socket.socket:
-    """A socket on this port; one of a kind with connections listens.
+def bound_socket(
+    option: str, address: str, port: int, kind: socket.SocketKind, where: str = "--listen-bridges"
+) -> socket.socket:
+    """A socket on this port; one of a kind with connections listens. `where` is the option that has the address.
 
     Raises:
         TouchlineError: the port cannot be listened on.
     """
     try:
         found = socket.getaddrinfo(address, port, type=kind, flags=socket.AI_PASSIVE)
-        family, _, _, _, place = min(found, key=lambda one: one[0] is not socket.AF_INET)  # of a name with several
-        bound = socket.socket(family, kind)
+        family, _, protocol, _, place = min(found, key=lambda one: one[0] is not socket.AF_INET)  # of a name's several
+        bound = socket.socket(family, kind, protocol)  # without the protocol, asyncio leaves Nagle's delay
     except (OSError, UnicodeError) as error:
-        raise cannot_listen(option, address, port, error) from None
+        raise _cannot_listen(option, address, port, where, error) from None
     try:
         if kind is socket.SOCK_STREAM:
             bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # connections in TIME_WAIT do not count
@@ -57,14 +59,13 @@ def bound_socket(option: str, address: str, port: int, kind: socket.SocketKind) 
             bound.listen()
     except OSError as error:
         bound.close()
-        raise cannot_listen(option, address, port, error) from None
+        raise _cannot_listen(option, address, port, where, error) from None
     return bound
 
 
-def cannot_listen(option: str, address: str, port: int, error: OSError | UnicodeError) -> TouchlineError:
-    """The error for a port that cannot be listened on."""
+def _cannot_listen(option: str, address: str, port: int, where: str, error: OSError | UnicodeError) -> TouchlineError:
     if isinstance(error, socket.gaierror | UnicodeError) or error.errno == errno.EADDRNOTAVAIL:
-        return TouchlineError(f"--listen-bridges {address} is not an address of this machine; 0.0.0.0 is all of them")
+        return TouchlineError(f"{where} {address} is not an address of this machine; 0.0.0.0 is all of them")
     return TouchlineError(
         f"{option} {port} cannot be listened on at {address} ({error.strerror}); choose another port, or 0"
     )

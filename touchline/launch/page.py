@@ -10,7 +10,7 @@ import typer
 
 from coach_gateway.access.tokens import page_address, tokens_of
 from coach_gateway.settings import GatewaySettings
-from coach_gateway.web.serving.listener import listen, origin_of
+from coach_gateway.web.serving.binding import listen, origin_of
 from coach_gateway.web.settings import WebSettings, need_web
 from runtime.access.accounts import Account
 from runtime.access.credentials import account_file

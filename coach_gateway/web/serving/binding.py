@@ -1,4 +1,4 @@
-"""What the page's server needs before there is a match: its socket, its tokens, and the allowed origins."""
+"""What the page's server needs before there is a match: its socket and address, its tokens, the allowed origins."""
 
 import socket
 from collections.abc import Iterator
@@ -8,8 +8,14 @@ from pathlib import Path
 from coach_gateway.access.origins import Origins
 from coach_gateway.access.roles import TokenRole
 from coach_gateway.access.tokens import Tokens, page_address
-from coach_gateway.web.serving.listener import listen, origin_of
+from coach_gateway.ports import bound_socket
+from coach_gateway.timing import UNREAD_S
 from coach_gateway.web.settings import WebSettings
+
+_ROOM_BYTES = 65_536
+"""Bytes that the kernel buffers for a page that has not read them yet: about ten frames. Its default holds hundreds."""
+_HERE = {"0.0.0.0": "127.0.0.1", "::": "::1"}
+"""Wildcard address → the loopback address that a browser on this machine can use."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,3 +53,24 @@ def bind_page(
     """
     origins = Origins(settings.allow_origin)
     return PageBinding(settings, listener or listen(settings.listen_web, settings.port), tokens, tokens_file, origins)
+
+
+def listen(address: str, port: int) -> socket.socket:
+    """A listening socket; a connection is cut when its other side has not read for `UNREAD_S`.
+
+    A browser that connects before the server serves is not turned away.
+
+    Raises:
+        TouchlineError: the port cannot be listened on.
+    """
+    listener = bound_socket("the page's port", address, port, socket.SOCK_STREAM, "--listen-web")
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _ROOM_BYTES)
+    if hasattr(socket, "TCP_USER_TIMEOUT"):
+        listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, round(UNREAD_S * 1000))
+    return listener
+
+
+def origin_of(address: str, port: int) -> str:
+    """The origin of what is served there, for a browser on this machine."""
+    near = _HERE.get(address, address)
+    return f"http://[{near}]:{port}" if ":" in near else f"http://{near}:{port}"

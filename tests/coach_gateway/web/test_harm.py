@@ -10,7 +10,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from coach_gateway.web.pages import send_queue
-from coach_gateway.web.serving import listener, uvicorn_server
+from coach_gateway.web.serving import binding, uvicorn_server
 from schemas.messages.world import ObstacleTruth
 from schemas.topics import WORLD
 from support.fake_host import FakeHost
@@ -145,7 +145,7 @@ def test_a_flood_holds_up_no_command_of_another_page(visit: Visit) -> None:
 def test_a_page_that_does_not_read_delays_no_other_and_is_dropped(
     host: FakeHost, gateway_of: GatewayOf, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(listener, "UNREAD_S", 0.5)
+    monkeypatch.setattr(binding, "UNREAD_S", 0.5)
     gateway = gateway_of()
     reader, stuck = Visitor(gateway.origin), Visitor(gateway.origin, max_queue=1, compression=None)
     wait_for(lambda: len(gateway.pages) == 2)
@@ -164,7 +164,7 @@ def test_a_deaf_page_that_goes_on_asking_is_dropped_before_it_fills_the_memory(
     host: FakeHost, gateway_of: GatewayOf, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(send_queue, "MOST", 500)
-    monkeypatch.setattr(listener, "UNREAD_S", 2.0)
+    monkeypatch.setattr(binding, "UNREAD_S", 2.0)
     gateway = gateway_of()
     deaf = RawClient(gateway.port, room=2048)
     deaf.upgrade(gateway.origin)
@@ -178,7 +178,7 @@ def test_a_deaf_page_that_goes_on_asking_is_dropped_before_it_fills_the_memory(
 def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
     host: FakeHost, gateway_of: GatewayOf, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(listener, "UNREAD_S", 600.0)  # however long the other page takes
+    monkeypatch.setattr(binding, "UNREAD_S", 600.0)  # however long the other page takes
     gateway = gateway_of()
     narrow = socket.socket()
     narrow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)

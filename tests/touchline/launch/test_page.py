@@ -31,7 +31,9 @@ def page():
 
 def test_the_port_of_a_page_is_the_page_s_from_the_moment_that_it_is_chosen(page: Page) -> None:
     assert page.settings.port == page.listener.getsockname()[1]
-    with pytest.raises(TouchlineError, match=f"the page cannot be served on 127.0.0.1 port {page.settings.port}"):
+    with pytest.raises(
+        TouchlineError, match=f"the page's port {page.settings.port} cannot be listened on at 127.0.0.1"
+    ):
         open_page(WebSettings(port=page.settings.port))
 
 

@@ -5,7 +5,7 @@ import socket
 
 import pytest
 
-from coach_gateway.web.serving.listener import listen
+from coach_gateway.web.serving.binding import listen
 
 
 @pytest.mark.anyio
