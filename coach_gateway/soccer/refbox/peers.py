@@ -1,7 +1,6 @@
 """The base stations that are connected to our box: which one gives way to another."""
 
 import asyncio
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import IntEnum
 
@@ -49,35 +48,10 @@ class Peer:
         return f"{self.host}:{self.port}"
 
 
-class Peers:
-    """All base stations."""
-
-    def __init__(self) -> None:
-        self._open: list[Peer] = []
-
-    def __iter__(self) -> Iterator[Peer]:
-        return iter(tuple(self._open))
-
-    def __len__(self) -> int:
-        return len(self._open)
-
-    def add(self, peer: Peer) -> None:
-        """Take in a base station."""
-        self._open.append(peer)
-
-    def remove(self, peer: Peer) -> None:
-        """Forget a base station that is gone."""
-        if peer in self._open:
-            self._open.remove(peer)
-
-    def of(self, side: Side, but: Peer) -> list[Peer]:
-        """The other base stations of a side."""
-        return [other for other in self._open if other is not but and other.side is side]
-
-    def why_kept(self, other: Peer, proof: Proof, host: str, now: float) -> str:
-        """Why a base station is not replaced by one with this proof from this address; empty when it is."""
-        if other.proof > proof:
-            return "its base station has proven more; send the token of its coach in the hello"
-        if proof is not Proof.TOKEN and other.host != host and now - other.heard_at < SILENCE_S:
-            return "its base station at another address is in use; send the token of its coach in the hello"
-        return ""
+def why_kept(other: Peer, proof: Proof, host: str, now: float) -> str:
+    """Why a base station is not replaced by one with this proof from this address; empty when it is."""
+    if other.proof > proof:
+        return "its base station has proven more; send the token of its coach in the hello"
+    if proof is not Proof.TOKEN and other.host != host and now - other.heard_at < SILENCE_S:
+        return "its base station at another address is in use; send the token of its coach in the hello"
+    return ""

@@ -21,7 +21,7 @@ from coach_gateway.soccer.refbox import DEFAULT_PORT, commands
 from coach_gateway.soccer.refbox.call_generator import CallGenerator
 from coach_gateway.soccer.refbox.commands import BoxCommand
 from coach_gateway.soccer.refbox.identity import HELLO, Identity, UnknownTeamError, identify, targets
-from coach_gateway.soccer.refbox.peers import MOST, Peer, Peers, Proof
+from coach_gateway.soccer.refbox.peers import MOST, Peer, Proof, why_kept
 from coach_gateway.soccer.refbox.team_world_state import TeamWorldState
 from coach_gateway.timing import CLIENT_S
 from schemas.messages.soccer.game import GameState
@@ -76,7 +76,7 @@ class RefBoxServer:
         self._of_token = of_token
         self._call_generator = CallGenerator()
         self._addresses: dict[Side, str] = dict(addresses or {})
-        self._peers = Peers()
+        self._peers: list[Peer] = []
         self.refusals = Refusals("referee box", log)
         """Refused connections and messages by kind."""
         self.ports: list[int] = []
@@ -97,7 +97,7 @@ class RefBoxServer:
                 how = ", in characters" if address.protocol is BoxProtocol.CHARACTERS else ""
                 self._log(f"referee box for {whom} on {address.host}:{self.ports[-1]}{how}")
             await stop.wait()
-            for peer in self._peers:
+            for peer in tuple(self._peers):
                 peer.writer.transport.abort()
             self.refusals.log_summary()
 
@@ -116,7 +116,7 @@ class RefBoxServer:
                 BoxProtocol.JSON: json_text,
                 BoxProtocol.CHARACTERS: "".join(call.signal.character_for(call.side) for call in calls).encode("ascii"),
             }
-            for peer in self._peers:
+            for peer in tuple(self._peers):
                 self._send(peer, text[peer.protocol])
 
     def _send_calls(self, state: GameState) -> None:
@@ -137,7 +137,7 @@ class RefBoxServer:
         peer = Peer(writer, host, port, self._live.now, protocol=address.protocol)
         if len(self._peers) >= MOST and not self._make_room(peer):
             return
-        self._peers.add(peer)
+        self._peers.append(peer)
         late = asyncio.get_running_loop().call_later(CLIENT_S, self._welcome_unidentified, peer)
         try:
             if address.side is not None:
@@ -195,9 +195,9 @@ class RefBoxServer:
         Raises:
             UnknownTeamError: the earlier one stays.
         """
-        others = self._peers.of(identity.side, peer)
+        others = [other for other in self._peers if other is not peer and other.side is identity.side]
         for other in others:
-            if why := self._peers.why_kept(other, proof, peer.host, self._live.now):
+            if why := why_kept(other, proof, peer.host, self._live.now):
                 raise UnknownTeamError(f"it claims to be {identity.side}'s, and {why}")
         for other in others:
             self._log(f"{identity.side}'s base station {other.name} is replaced by {peer.name}")
@@ -236,7 +236,8 @@ class RefBoxServer:
             self._refuse(peer, "base station that does not read")
 
     def _drop(self, peer: Peer) -> None:
-        self._peers.remove(peer)
+        if peer in self._peers:
+            self._peers.remove(peer)
         peer.writer.transport.abort()
 
     def _forget(self, peer: Peer) -> None:
