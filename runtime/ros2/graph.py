@@ -23,8 +23,6 @@ from runtime.ros2.graph_names import Attachment, Endpoint, Kind, NodeName, data_
 from runtime.ros2.message_types import hash_of
 from runtime.ros2.topic_type import TopicType
 
-_MOST_DOMAINS = 232
-"""Domains of ROS 2 are 0 to 232."""
 _BACKLOG = 10_000
 """Most samples and queries that wait to be handled; of more, the oldest are dropped."""
 
@@ -53,8 +51,6 @@ def open_graph(
     Raises:
         BusError: nothing answers at `router` for `patience` s of wall time, or `listen` cannot be listened on.
     """
-    if not 0 <= domain <= _MOST_DOMAINS:
-        raise BusError(f"--domain is {domain}; ROS 2 has the domains 0 to {_MOST_DOMAINS}")
     if router is None:
         # As rmw_zenoh's own router: nodes learn of each other from it, and connect with each other.
         session, endpoint = open_router(listen, protection, {"scouting/gossip/enabled": True})

@@ -56,8 +56,3 @@ def test_a_graph_that_other_machines_reach_needs_accounts(served) -> None:
 def test_a_router_that_does_not_answer_is_named() -> None:
     with pytest.raises(BusError, match=r"--connect tcp/127\.0\.0\.1:9: no host answers there"):
         open_graph("touchline", WallClock(), 0, None, "tcp/127.0.0.1:9", 0.0)
-
-
-def test_a_domain_that_ros_does_not_have_is_named() -> None:
-    with pytest.raises(BusError, match="--domain is 300; ROS 2 has the domains 0 to 232"):
-        open_graph("touchline", WallClock(), 300, "tcp/127.0.0.1:0", None, 0.0)
