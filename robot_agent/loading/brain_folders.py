@@ -58,9 +58,6 @@ class BrainFolders:
         return self.find(stem.with_suffix(".py"), stem / "__init__.py")
 
     def find(self, *names: Path | str) -> Path | None:
-        """The first of these files or folders in the first folder that has one; None if there is none.
-
-        A word of a command line may be no name of a file, but a whole program.
-        """
+        """The first of these files or folders in the first folder that has one; None if there is none."""
         found = (path / name for path in self.paths for name in names)
-        return next((path for path in found if os.access(path, os.F_OK)), None)
+        return next((path for path in found if os.access(path, os.F_OK)), None)  # a name may be too long for a file

@@ -21,7 +21,6 @@ _ROUNDING_NS = 1000
 _CONTEST_NS = 500_000_000
 """Simulated time for which a node that has sent a command counts as one that drives the robot."""
 _REST = Command(answers_tick=0)
-_LEFT = "no node drives it any more"
 
 
 class Fault(StrEnum):
@@ -144,7 +143,7 @@ class Answers:
         """The first node that drives the robot has come, or the last one has left; the answer to a sight that waits."""
         was, self.is_driven = self.is_driven, is_driven
         if was and not is_driven:
-            self._note(Fault.LEFT, _LEFT)
+            self._note(Fault.LEFT, "no node drives it any more")
             return self._brake()
         return None
 

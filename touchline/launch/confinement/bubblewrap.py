@@ -19,14 +19,8 @@ NOBODY = 65534
 """Id of the user and the group that robots have in place of root. Root in bubblewrap could leave it, and what belongs
 to root could be read there even without capabilities."""
 _NAMESPACES = (
-    "--cap-drop",
-    "ALL",
-    "--unshare-pid",
-    "--unshare-ipc",
-    "--unshare-uts",
-    "--unshare-cgroup-try",
-    "--die-with-parent",
-    "--new-session",
+    *("--cap-drop", "ALL", "--unshare-pid", "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try"),
+    *("--die-with-parent", "--new-session"),
 )
 
 

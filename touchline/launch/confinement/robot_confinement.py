@@ -23,8 +23,6 @@ from touchline.launch.confinement.team_code import (
 
 _GRACE_S = 5
 """CPU time in s from the signal SIGXCPU to SIGKILL."""
-
-
 _CREDENTIALS = "credentials.json"
 """Name of the team's credentials in the working folder of an isolated robot."""
 
@@ -99,16 +97,12 @@ class Confinement:
             os.chown(self.folder, self.user, self.user)
             self.folder.parent.chmod(self.folder.parent.stat().st_mode | 0o011)
         if self.is_isolated and self.credentials is not None:
-            self._copy_credentials(self.credentials.read_bytes())
-
-    def _copy_credentials(self, content: bytes) -> None:
-        """Write the robot's copy; the folder is the robot's, so that no link in it is followed."""
-        copy = self.folder / _CREDENTIALS
-        copy.unlink(missing_ok=True)
-        with os.fdopen(os.open(copy, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
-            if self.user is not None:
-                os.fchown(file.fileno(), self.user, self.user)
-            file.write(content)
+            copy = self.folder / _CREDENTIALS
+            copy.unlink(missing_ok=True)  # the folder is the robot's, and no link in it is to be followed
+            with os.fdopen(os.open(copy, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
+                if self.user is not None:
+                    os.fchown(file.fileno(), self.user, self.user)
+                file.write(self.credentials.read_bytes())
 
     def remove_empty_folder(self) -> None:
         """Remove the working folder if the robot has left nothing in it."""
@@ -127,26 +121,21 @@ def team_confinements(config: MatchConfig, beside_match: Path | None, runs: Path
         TouchlineError: this machine cannot isolate them as the match file asks.
     """
     is_isolated = config.isolate is Isolation.BUBBLEWRAP
-    user = NOBODY if is_isolated and os.geteuid() == 0 else os.geteuid()
-    others = _tasks_of_user(user) if user else 0  # the kernel does not limit root
+    user = NOBODY if is_isolated and os.geteuid() == 0 else None
+    counted = os.geteuid() if user is None else user
+    others = _tasks_of_user(counted) if counted else 0  # the kernel does not limit root
     robots = sum(len(config.robots(side)) for side in config.local_sides)
     confinements = {}
     for side in config.local_sides:
         limits = config.limits_of(side)
-        confinement = Confinement(
-            limits,
-            Path("/"),
-            tasks=others + limits.processes * max(1, robots),
-            passed=tuple(config.team(side).pass_environment),
-        )
+        tasks, passed = others + limits.processes * max(1, robots), tuple(config.team(side).pass_environment)
+        confinement = Confinement(limits, Path("/"), tasks, passed, user)
         if is_isolated:
             visible, hidden = _view(config, side, beside_match, runs)
-            confinement = replace(
-                confinement, user=user if user != os.geteuid() else None, visible=visible, hidden=hidden
-            )
-            check_bubblewrap(confinement.visible or (), hidden, confinement.user)
-            if confinement.user is not None:
+            check_bubblewrap(visible, hidden, user)
+            if user is not None:
                 _check_open(runs)
+            confinement = replace(confinement, visible=visible, hidden=hidden)
         confinements[side] = confinement
     return confinements
 
@@ -157,13 +146,12 @@ def _check_open(runs: Path) -> None:
     Raises:
         TouchlineError: a folder is closed.
     """
-    above = [path for path in runs.absolute().parents if path.exists()]
-    closed = next((path for path in above if not path.stat().st_mode & 0o001), None)
-    if closed is not None:
-        raise TouchlineError(
-            f"--isolate bubblewrap: robots that root launches run as nobody, who may not enter {closed}; "
-            "start the match in another folder, or as another user"
-        )
+    for folder in runs.absolute().parents:
+        if folder.exists() and not folder.stat().st_mode & 0o001:
+            raise TouchlineError(
+                f"--isolate bubblewrap: robots that root launches run as nobody, who may not enter {folder}; "
+                "start the match in another folder, or as another user"
+            )
 
 
 def _view(
@@ -172,11 +160,9 @@ def _view(
     """What the robots of a side can read in bubblewrap, and what not."""
     code, rival = team_code(config, side, beside_match), team_code(config, side.opponent, beside_match)
     paths = [Path(entry).absolute() for entry in os.environ.get("PYTHONPATH", "").split(os.pathsep) if entry]
-    visible = [*system_folders(), *interpreter_folders(config, side), *paths, *code.own]
-    if code.folder is not None:
-        visible.append(code.folder)
+    folders = [*system_folders(), *interpreter_folders(config, side), *paths, *filter(None, [code.folder])]
     hidden = [path for path in rival.own if not any(own.is_relative_to(path) for own in code.own)]
-    return tuple(visible), (*hidden, runs.absolute())
+    return (*folders, *code.own), (*hidden, runs.absolute())
 
 
 def isolation_note(config: MatchConfig, beside_match: Path | None) -> str:

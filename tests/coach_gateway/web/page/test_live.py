@@ -180,9 +180,11 @@ def test_the_labels_of_restart_distances_are_within_the_picture(watched) -> None
         const { drawDistances } = await import("/field/distances.js"), { setup } = window.touchline.match;
         const { Projection } = await import("/shared/projection.js"), projection = new Projection();
         const context = document.createElement("canvas").getContext("2d"), ends = [];
-        context.fillText = (text, left) => ends.push(...[-0.5, 0.5].map((end) => left + end * context.measureText(text).width));
-        projection.fit(setup.pitch, 360, undefined, 1);
-        for (const x of [-11, 11]) drawDistances(context, projection, { setup, state: { phase: "corner", side: "cyan", spot: { x, y: 7 } } });
+        const half = (text) => context.measureText(text).width / 2;
+        context.fillText = (text, left) => ends.push(left - half(text), left + half(text));
+        projection.fit(setup.pitch, 360);
+        const corner = (x) => ({ setup, state: { phase: "corner", side: "cyan", spot: { x, y: 7 } } });
+        for (const x of [-11, 11]) drawDistances(context, projection, corner(x));
         return [projection.width, ...ends];
     }"""
     width, *ends = watched[1].ask(script)

@@ -96,8 +96,7 @@ def _no_setup(bus: Bus, error: Exception) -> Finding:
 
 def _listen(bus: Bus) -> tuple[Health | None, list[tuple[int, int]]]:
     """The newest report on the host's health, and times of sending and arrival of new messages, in ns."""
-    history = bus.subscribe(HEALTH, history=True)
-    subscriptions = [history, bus.subscribe(HEALTH), bus.subscribe(WORLD)]
+    subscriptions = [history := bus.subscribe(HEALTH, history=True), bus.subscribe(HEALTH), bus.subscribe(WORLD)]
     newest, stamps = None, []
     until = bus.clock.now() + REQUEST_S
     while bus.clock.now() < until:
