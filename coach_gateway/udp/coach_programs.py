@@ -198,7 +198,7 @@ def _act(
     why = rights.refusal(session.role, action.action.value, robots, robot=action.robot)
     if why is not None:
         return why
-    return pending(action=action.replace(source=f"coach program {session.name}"))
+    return pending(action=action.replace(source=f"coach program {session.name}", referee=None))
 
 
 def _order(pending: _Pending, session: Session, ask: ProgramOrder, robots: Mapping[str, Side]) -> PendingRequest | str:

@@ -73,7 +73,7 @@ class ProgramMatchMode(_InSession, tag="match_mode"):
 
 
 class ProgramAction(_InSession, tag="action"):
-    """Asks the referee for an action."""
+    """Asks the referee for an action; source and referee are filled in by the server."""
 
     action: RefereeAction
 

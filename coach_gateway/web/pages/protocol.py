@@ -196,7 +196,7 @@ class _PageRequest(Part, tag_field="deed"):
 
 
 class PageAction(_PageRequest, tag="action"):
-    """Asks the referee for an action; `source` is filled in by the server."""
+    """Asks the referee for an action; `source` and `referee` are filled in by the server."""
 
     action: RefereeAction
 

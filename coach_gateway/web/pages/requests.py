@@ -77,7 +77,7 @@ class RequestHandler:
         source = {"source": SOURCES.get(role, role.value)}
         match request:
             case PageAction():
-                return partial(self.client.act, request.action.replace(**source))
+                return partial(self.client.act, request.action.replace(**source, referee=None))
             case PageScene() | PageParameters():
                 topic = SCENE if isinstance(request, PageScene) else PARAMETERS
                 return partial(self.client.ask, topic, request.request.replace(**source))

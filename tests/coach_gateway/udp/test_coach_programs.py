@@ -190,9 +190,10 @@ def test_the_referee_parks_both_sides(referee: Program) -> None:
     assert deed is not None and deed.sides == tuple(Side)
 
 
-def test_no_program_can_pass_for_the_referee_box(referee: Program) -> None:
-    deed = referee.say("action", action={"action": "start", "source": REFBOX}).request
-    assert deed is not None and deed.action is not None and deed.action.source == "coach program coach"
+def test_no_program_can_pass_for_the_referee_box_or_another_referee(referee: Program) -> None:
+    deed = referee.say("action", action={"action": "start", "source": REFBOX, "referee": "gateway_other"}).request
+    assert deed is not None and deed.action is not None
+    assert (deed.action.source, deed.action.referee) == ("coach program coach", None)
 
 
 def test_a_datagram_that_comes_again_is_done_once_and_answered_again(coaches: CoachPrograms, cyan: Program) -> None:

@@ -34,12 +34,13 @@ def test_a_spectator_cannot_command(visit: Visit, host: FakeHost) -> None:
 
 def test_a_stop_of_the_referee_reaches_the_match_and_is_named_after_the_page(visit: Visit, host: FakeHost) -> None:
     page = visit("referee")
-    assert page.ask("action", action={"action": "stop", "source": "somebody else"})["accepted"]
+    assert page.ask("action", action={"action": "stop", "source": "x", "referee": "gateway_other"})["accepted"]
     refused = page.ask("action", action={"action": "corner", "side": "cyan"})
     assert (refused["accepted"], refused["reason"]) == (False, "play is running")
     invalid = page.ask("order", side="cyan", order={"mode": "hold", "robot_a": "magenta1"})
     assert not invalid["accepted"] and "no robot of cyan" in invalid["reason"]
     asked = [question for question in host.asked if hasattr(question, "action")]
+    assert all(question.referee not in (None, "gateway_other") for question in asked)
     assert [(question.action, question.source) for question in asked] == [
         (ActionName.STOP, "referee's page"),
         (ActionName.CORNER, "referee's page"),
