@@ -84,6 +84,9 @@ class _Files(StaticFiles):
         if scope["type"] == "websocket":
             await send({"type": "websocket.close", "code": 1000})
             return
+        if not Path(self.directory or "").exists():  # a match that is not over has no result
+            await PlainTextResponse("Not Found", 404)(scope, receive, send)
+            return
         await super().__call__(scope, receive, send)
 
 

@@ -40,6 +40,11 @@ def get(gateway: Gateway) -> Iterator[Get]:
     connection.close()
 
 
+def test_a_match_that_is_not_over_has_no_result(get: Get, result: Path) -> None:
+    result.rename(result.with_name("later"))
+    assert get("/result/statistics.html")[0].status == 404
+
+
 @pytest.mark.parametrize(
     ("path", "kind"),
     [
