@@ -10,7 +10,7 @@ from typing import Any
 from coach_gateway.access import rights
 from coach_gateway.access.refusals import Refusals
 from coach_gateway.access.roles import COACHES, TokenRole
-from coach_gateway.udp.coach_record import BY_NUMBER, TEST_MODES, MatchMode, for_coach, for_referee
+from coach_gateway.udp.coach_record import BY_NUMBER, FOR_COACH, TEST_MODES, MatchMode, for_referee
 from coach_gateway.udp.protocol import (
     MAX_BYTES,
     Ack,
@@ -228,7 +228,7 @@ def _match_mode(
     own = COACHES.get(session.role)
     if own is not None and ask.side not in (None, own):
         return f"the match mode of {ask.side} is not for {own.value}'s coach"
-    meaning = for_coach(mode) if own is not None else for_referee(mode, ask.side or Side.CYAN)
+    meaning = FOR_COACH.get(mode) if own is not None else for_referee(mode, ask.side or Side.CYAN)
     if meaning is None:
         return f"{mode.value} is for the referee alone: it needs the referee's token"
     if meaning.action is not None:

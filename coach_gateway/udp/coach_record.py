@@ -88,27 +88,24 @@ class Meaning(NamedTuple):
     order: CoachMode | None = None
 
 
-_ORDERS = {MatchMode.STOP: CoachMode.HOLD, MatchMode.START: CoachMode.PLAY, MatchMode.PARK: CoachMode.PARK}
-_ACTIONS = {
-    MatchMode.STOP: ActionName.STOP,
-    MatchMode.START: ActionName.START,
-    MatchMode.DROP_BALL: ActionName.DROP_BALL,
+FOR_COACH = {
+    MatchMode.STOP: Meaning(order=CoachMode.HOLD),
+    MatchMode.START: Meaning(order=CoachMode.PLAY),
+    MatchMode.PARK: Meaning(order=CoachMode.PARK),
 }
-
-
-def for_coach(mode: MatchMode) -> Meaning | None:
-    """What a match mode means from a side's coach; None where it is for the referee alone."""
-    order = _ORDERS.get(mode)
-    return Meaning(order=order) if order is not None else None
+"""What match modes mean from a side's coach; the others are for the referee alone."""
+_FOR_REFEREE = {
+    MatchMode.STOP: Meaning(action=ActionName.STOP),
+    MatchMode.START: Meaning(action=ActionName.START),
+    MatchMode.DROP_BALL: Meaning(action=ActionName.DROP_BALL),
+    MatchMode.PARK: Meaning(order=CoachMode.PARK),
+}
+"""What those mean from the referee that are the same for both sides."""
 
 
 def for_referee(mode: MatchMode, own: Side) -> Meaning | None:
     """What a match mode means from the referee, from the point of view of `own`; None for a test, which is an order."""
-    if mode in _ACTIONS:
-        return Meaning(action=_ACTIONS[mode])
-    if mode is MatchMode.PARK:
-        return Meaning(order=CoachMode.PARK)
     whose, _, what = mode.value.partition("_")
-    if whose not in ("our", "their"):
-        return None
-    return Meaning(action=ActionName(what), side=own if whose == "our" else own.opponent)
+    if whose in ("our", "their"):
+        return Meaning(action=ActionName(what), side=own if whose == "our" else own.opponent)
+    return _FOR_REFEREE.get(mode)

@@ -1,6 +1,5 @@
 """One coach program's session: which datagrams are new, repeated or late, and when the session is over. Pure."""
 
-from collections import OrderedDict
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
@@ -48,7 +47,7 @@ class Session:
     """Number of the host whose events these are: they are counted anew with each."""
     beliefs_sent: dict[str, float] = field(default_factory=dict)
     """Robot → simulated time of its belief that was sent last."""
-    _answers: "OrderedDict[int, Ack | None]" = field(default_factory=OrderedDict)
+    _answers: dict[int, Ack | None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.heard_at = self.due_at = self.begun_at
@@ -67,7 +66,7 @@ class Session:
         self.newest = sequence
         self._answers[sequence] = None
         while len(self._answers) > KEPT:
-            self._answers.popitem(last=False)
+            del self._answers[next(iter(self._answers))]
         return SequenceStatus.NEW
 
     def answered(self, sequence: int, ack: Ack) -> None:

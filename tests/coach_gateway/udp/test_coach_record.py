@@ -4,11 +4,11 @@ import pytest
 
 from coach_gateway.udp.coach_record import (
     BY_NUMBER,
+    FOR_COACH,
     TEST_MODES,
     MatchMode,
     Meaning,
     RecordedTest,
-    for_coach,
     for_referee,
 )
 from schemas.messages.coach import CoachMode, CoachTest
@@ -67,5 +67,5 @@ def test_the_referee_brings_about_every_match_mode_from_a_sides_point_of_view(ow
 
 
 def test_a_sides_coach_stops_starts_and_parks_its_own_robots_and_nothing_more() -> None:
-    orders = {mode: meaning.order for mode in MatchMode if (meaning := for_coach(mode)) is not None}
+    orders = {mode: meaning.order for mode, meaning in FOR_COACH.items()}
     assert orders == {MatchMode.STOP: CoachMode.HOLD, MatchMode.START: CoachMode.PLAY, MatchMode.PARK: CoachMode.PARK}
