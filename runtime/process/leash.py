@@ -58,7 +58,7 @@ def main(arguments: list[str]) -> int:
     try:
         confine(json.loads(confinement))
     except OSError as error:
-        sys.stderr.write(f"touchline: the limits of this process cannot be set: {error}\n")
+        sys.stderr.write(f"touchline: this process cannot be confined: {error}\n")
         return 127
     end_with(int(launcher))
     try:
