@@ -101,9 +101,10 @@ class SocketEndpoint:
 
     async def _send(self, socket: WebSocket, page: Page) -> None:
         """Send what waits, as fast as the page reads; everything else that is due takes a turn after each message."""
-        while True:
-            await socket.send_text(await page.queue.next())
-            await asyncio.sleep(0)
+        with contextlib.suppress(RuntimeError):  # the server has closed it, after a message that was too long
+            while True:
+                await socket.send_text(await page.queue.next())
+                await asyncio.sleep(0)
 
     async def _read(self, socket: WebSocket, page: Page) -> None:
         """Read the page's messages until it leaves; everything else that is due takes a turn after each."""

@@ -12,9 +12,9 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from coach_gateway.web.pages import send_queue
 from coach_gateway.web.serving import binding, uvicorn_server
 from schemas.messages.world import ObstacleTruth
-from schemas.topics import WORLD
+from schemas.topics import EVENT, WORLD
 from support.fake_host import FakeHost
-from support.messages import make_world
+from support.messages import make_event, make_world
 from support.page_gateway import SOON, TOKENS, Gateway
 from support.process_story import wait_for
 from support.raw_client import RawClient, deflated, frame
@@ -80,6 +80,25 @@ def test_garbage_is_answered_in_one_line_and_the_page_goes_on(visit: Visit, host
         assert 0 < len(reply["reason"]) < 1000 and "\n" not in reply["reason"]
     assert page.ask("token")["accepted"]
     assert [question for question in host.asked if hasattr(question, "source")] == []
+
+
+def test_a_page_that_sends_too_much_at_once_is_closed_without_a_word_in_the_log(
+    gateway_of: GatewayOf, host: FakeHost, caplog: pytest.LogCaptureFixture
+) -> None:
+    gateway = gateway_of()
+    for tick in range(1000):
+        host.put(EVENT, make_event(tick, "x" * 1000))
+    watching = Visitor(gateway.origin)
+    while watching.hear("event")["event"]["tick"] < 999:
+        pass
+    for _ in range(5):  # while much waits to be sent to it
+        page = Visitor(gateway.origin)
+        page.send("x" * (uvicorn_server.MAX_MESSAGE_BYTES + 1))
+        with pytest.raises(ConnectionClosed):
+            while True:
+                page.hear()
+    watching.close()
+    assert caplog.records == []
 
 
 def test_refusals_are_named_once_counted_and_logged_at_the_end(host: FakeHost, gateway_of: GatewayOf) -> None:
