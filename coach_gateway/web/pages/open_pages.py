@@ -41,8 +41,7 @@ class Pages:
 
     def roles(self) -> list[TokenRole]:
         """The roles of all open pages."""
-        there = {page.role: None for page in self._open}
-        return list(there)
+        return list({page.role: None for page in self._open})
 
     def send(self, text: str, role: TokenRole | None = None) -> None:
         """Send to all pages, or to the pages of one role."""
