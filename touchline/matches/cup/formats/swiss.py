@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 
 from touchline.matches.cup.match_result import Fixture, FixtureResult
 
@@ -53,17 +54,16 @@ def swiss(
 
 def _pairs(order: Sequence[str | None], met: Collection[frozenset[str | None]]) -> list[tuple[str | None, str | None]]:
     """Pairs of neighbours in the order, as near as possible, none of which has met; None rests a team."""
-    if not order:
+
+    @cache  # many ways to pair the first teams leave the same others
+    def pairs(first: str | None, *others: str | None) -> list[tuple[str | None, str | None]]:
+        for place, second in enumerate(others):
+            rest = (*others[:place], *others[place + 1 :])
+            if frozenset((first, second)) not in met and (not rest or pairs(*rest)):
+                return [(first, second), *(pairs(*rest) if rest else ())]
         return []
-    first = order[0]
-    for place in range(1, len(order)):
-        if frozenset((first, order[place])) in met:
-            continue
-        rest = [*order[1:place], *order[place + 1 :]]
-        below = _pairs(rest, met)
-        if len(below) * 2 == len(rest):
-            return [(first, order[place]), *below]
-    return []
+
+    return pairs(*order)
 
 
 def _by_sides(pair: tuple[str | None, str | None], before: Sequence[Fixture]) -> tuple[str, str | None]:
