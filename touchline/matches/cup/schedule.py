@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 
 from touchline.matches.cup.cup_config import CupConfig, FormatKind
 from touchline.matches.cup.formats.groups import divided, seeded_from
@@ -13,7 +14,7 @@ from touchline.matches.cup.match_result import Fixture, FixtureResult, scored
 from touchline.matches.cup.standings import Standing
 from touchline.matches.cup.tie_breaks import table, winner_of
 from touchline.matches.statistics.estimates import LEVEL
-from touchline.matches.statistics.ratings import rate
+from touchline.matches.statistics.ratings import Scored, rate
 
 LEAGUE = "league"
 Results = Mapping[str, FixtureResult]
@@ -64,9 +65,14 @@ def _repeats(cup: CupConfig, results: Results, refused: Teams) -> int:
         if len(played) < len(fixtures) or not all(one.is_over for one in played):
             return repeats
         matches = scored(match for one in played for match in one.matches)
-        if rate(names, matches, level=look_level(most)).significant:
+        if _is_significant(tuple(names), tuple(matches), look_level(most)):
             return repeats
     return most
+
+
+@cache  # all earlier looks are asked for with each outcome
+def _is_significant(names: tuple[str, ...], matches: tuple[Scored, ...], level: float) -> bool:
+    return rate(names, matches, level).significant
 
 
 def look_level(looks: int) -> float:

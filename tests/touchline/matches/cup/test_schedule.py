@@ -3,9 +3,11 @@
 import pytest
 
 from support.cup_results import stronger_wins
+from touchline.matches.cup import schedule as cup_schedule
 from touchline.matches.cup.cup_config import CupConfig, FormatConfig, SignificanceConfig, TeamEntry
 from touchline.matches.cup.match_result import FixtureResult
 from touchline.matches.cup.schedule import Schedule, look_level, schedule_of
+from touchline.matches.statistics.ratings import rate
 
 
 def cup_of(number: int, **keys: object) -> CupConfig:
@@ -50,10 +52,15 @@ def test_a_swiss_cup_ends_after_its_rounds() -> None:
     assert sum(row.byes for row in schedule.tables["swiss"]) == 3
 
 
-def test_until_significant_adds_rounds_until_the_order_is_clear_and_no_further() -> None:
+def test_until_significant_looks_once_at_each_round_until_the_order_is_clear(monkeypatch: pytest.MonkeyPatch) -> None:
+    looks: list[int] = []
+    monkeypatch.setattr(
+        cup_schedule, "rate", lambda names, matches, level: looks.append(len(matches)) or rate(names, matches, level)
+    )
     cup = cup_of(2, until_significant=SignificanceConfig(budget=40))
     schedule, _ = play_out(cup, ["t1", "t0"])
     assert 6 < len(schedule.fixtures) < 40
+    assert looks == list(range(1, len(schedule.fixtures) + 1))
 
 
 def test_until_significant_never_plays_more_than_its_budget() -> None:
