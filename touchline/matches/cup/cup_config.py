@@ -232,8 +232,7 @@ class CupConfig(ConfigModel):
         Raises:
             TouchlineError: a key of `[match]` is invalid.
         """
-        content: dict[str, Any] = json.loads(self.match_config().model_dump_json(include=set(_FILES)))
-        return content
+        return dict(json.loads(self.match_config().model_dump_json(include=set(_FILES))))
 
 
 def load_cup(path: Path) -> CupConfig:

@@ -1,5 +1,6 @@
 """The worst matches of a plan: played again with a recording, and what they have in common."""
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -89,7 +90,7 @@ def keep_failures(
     matches = {one.identity: one for one in planned if one.identity in worths}
     order = sorted(matches.values(), key=lambda one: (worths[one.identity], one.config.seed))
     chosen = [one for one in order if bound is None or worths[one.identity] < bound][:most]
-    again = [replace(one, recording=folder / f"{_file_name(one.label)}.mcap") for one in chosen]
+    again = [replace(one, recording=folder / (re.sub(r"\W+", "_", one.label) + ".mcap")) for one in chosen]
     repeated = play_list(again, jobs, "failures again, recorded", lambda one, _: one.label, json=json)
     kept, failures, missing = [], [], []
     for one in again:
@@ -116,8 +117,3 @@ def in_common(failures: Sequence[Played], others: Sequence[Played]) -> list[Shar
         if difference >= _TELLING:
             found.append((-difference, Shared(event, failed, passed)))
     return [one for _, one in sorted(found, key=lambda pair: (pair[0], pair[1].event))][:_MOST]
-
-
-def _file_name(label: str) -> str:
-    """A label as the name of a file: letters, digits and `_`."""
-    return "_".join("".join(letter if letter.isalnum() else " " for letter in label).split())

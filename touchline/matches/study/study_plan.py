@@ -118,8 +118,7 @@ class StudyPlan:
     def _all_seeds(self) -> list[int]:
         """The seeds of the study file, and those that are added to them in order."""
         first = self.study.first_seeds
-        further = (seed for seed in count(max(first) + 1))
-        return [*first, *islice(further, max(0, self.study.most_seeds - len(first)))]
+        return [*first, *islice(count(max(first) + 1), max(0, self.study.most_seeds - len(first)))]
 
 
 def recording_name(identity: str) -> str:

@@ -209,7 +209,6 @@ def test_in_a_swiss_tournament_no_pair_meets_twice_and_no_team_rests_twice(numbe
 
 
 def test_a_swiss_tournament_of_28_teams_that_all_draw_is_paired_to_its_last_round() -> None:
-    """Pair by pair there are millions of ways to begin that leave the same teams, which cannot be paired."""
     teams, results = names(28), dict[str, FixtureResult]()
     for _ in range(14):
         for fixture in swiss(teams, 14, results, lambda *_: teams).fixtures:
