@@ -57,8 +57,7 @@ def diff(
 
 
 def _sentence(found: "RecordingComparison", first: Path, second: Path) -> str:
-    difference = found.first
-    if difference is None:
+    if (difference := found.first) is None:
         return f"identical: {found.messages} messages on {found.keys} keys"
     where = f"{difference.key}, message {difference.number} at {difference.time:.3f} s"
     before = f"{found.messages} messages are equal before it and on other keys"

@@ -91,8 +91,7 @@ def _reason(outcome: "Outcome") -> str:
 
 
 def _sentence(planned: "PlannedMatch", outcome: "Outcome") -> str:
-    verdict = _verdict(outcome)
-    if verdict is None:
+    if (verdict := _verdict(outcome)) is None:
         return f"seed {planned.config.seed}: not played: {_reason(outcome)}"
     kind = "success" if verdict.success else "failure"
     return f"seed {planned.config.seed}: {kind}, {verdict.because} after {verdict.time:.1f} s"

@@ -112,8 +112,7 @@ class _BuildCheck:
         Raises:
             TouchlineError: a brain cannot be built, or takes too long.
         """
-        status = self._process.wait(STATUS_S, self._clock)
-        if status is None:
+        if (status := self._process.wait(STATUS_S, self._clock)) is None:
             report(f"waiting for {self._brain} to be built")
             status = self._process.wait(self._patience, self._clock)
         if status is None:

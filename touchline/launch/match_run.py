@@ -135,8 +135,7 @@ class MatchRun:
     def _launch_clients(self, stop: StopSignals) -> bool:
         """Launch all other processes as soon as the host listens; False if it never does."""
         while self._poll_processes(stop):
-            announcement = announcement_in(self._plan.announcement)
-            if announcement is not None:
+            if (announcement := announcement_in(self._plan.announcement)) is not None:
                 self._match_screen.begin(announcement)
                 if self._plan.page is not None:
                     for line in address_lines(self._plan.page.settings, self._plan.tokens):
@@ -150,8 +149,7 @@ class MatchRun:
 
     def _follow(self, stop: StopSignals) -> MatchFollower | None:
         """Watch until the host has ended or a signal is received; None if the host was never reached."""
-        bus = self._connect(stop)
-        if bus is None:
+        if (bus := self._connect(stop)) is None:
             return None
         with bus:
             follower = MatchFollower(bus)

@@ -33,8 +33,7 @@ def outcome_of(plan: MatchPlan, status: int | None, log: Sequence[str]) -> Recor
     """The outcome after the recorder has ended with this exit status and these last lines of its log."""
     from recordings.container.parts import parts_of
 
-    path = plan.recording
-    if path is None:
+    if (path := plan.recording) is None:
         return NO_RECORDING
     parts = parts_of(path)
     reason = f"the recorder {ending(status)}" if status else "it is missing"

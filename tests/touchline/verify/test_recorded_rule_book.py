@@ -132,8 +132,7 @@ def test_an_embedded_rule_book_that_cannot_be_read_is_named_in_one_line(today: P
 
 @pytest.mark.usefixtures("later_numbers")
 @pytest.mark.parametrize(
-    ("attachment", "what", "version"),
-    [("rules.json", "rule book friendly", 1), ("profile.json", "profile msl", 2)],
+    ("attachment", "what", "version"), [("rules.json", "rule book friendly", 1), ("profile.json", "profile msl", 2)]
 )
 def test_lost_numbers_are_not_replaced_by_those_of_another_version(
     today: Path, attachment: str, what: str, version: int

@@ -44,8 +44,7 @@ def with_option_groups(command: Callable[..., None]) -> Callable[..., None]:
     plain: list[Parameter] = []
     groups: dict[str, _Group] = {}
     for name, parameter in signature(command).parameters.items():
-        group = _group_of(hints[name])
-        if group is not None:
+        if (group := _group_of(hints[name])) is not None:
             groups[name] = group
         plain += group.parameters if group is not None else [parameter.replace(annotation=hints[name])]
 
@@ -109,8 +108,7 @@ def _group_of_settings(model: type[Settings]) -> _Group:
     parameters: list[Parameter] = []
     below: dict[str, _Group] = {}
     for name, field in model.model_fields.items():
-        part = _part_of(field)
-        if part is None:
+        if (part := _part_of(field)) is None:
             parameters.append(_parameter(model, name, name, is_override=False))
         elif issubclass(part, Settings):
             below[name] = _group_of_settings(part)
@@ -128,8 +126,7 @@ def _group_of_dataclass(cls: Any) -> _Group:
     parameters: list[Parameter] = []
     below: dict[str, _Group] = {}
     for field in fields(cls):
-        group = _group_of(hints[field.name])
-        if group is not None:
+        if (group := _group_of(hints[field.name])) is not None:
             below[field.name] = group
             parameters += group.parameters
         else:

@@ -30,8 +30,7 @@ class TeamCode(NamedTuple):
 def team_code(config: MatchConfig, side: Side, beside_match: Path | None) -> TeamCode:
     """The code of a side; a program with arguments is taken for the files that its command line names."""
     team = config.team(side)
-    program = team_program(config, side, beside_match)
-    if program:
+    if program := team_program(config, side, beside_match):
         files = [path for path in map(_file_of, program[:1]) if path is not None]
         files += [Path(word).absolute() for word in program[1:] if os.access(word, os.F_OK)]
         own = tuple(file for file in files if not any(file.is_relative_to(one) for one in system_folders()))

@@ -27,8 +27,7 @@ class LogLimit:
             size = log.stat().st_size
         except FileNotFoundError:
             return ""
-        kept = self._kept.get(log)
-        if kept is not None:
+        if (kept := self._kept.get(log)) is not None:
             if size > kept + self._newest:
                 os.truncate(log, kept)
             return ""

@@ -114,8 +114,7 @@ class Supervisor:
         for name, process in self._processes.items():
             if name in self.ended:
                 continue
-            status = self._running[name].status()
-            if status is None:
+            if (status := self._running[name].status()) is None:
                 continue
             if self.host_status is not None or (status == 0 and process.kind is not ProcessKind.AGENT):
                 self.ended[name] = status
@@ -207,10 +206,8 @@ class Supervisor:
         return any(name not in self.ended and self._processes[name].kind not in keep for name in self._running)
 
     def _reap(self, name: str) -> None:
-        if name in self._running and name not in self.ended:
-            status = self._running[name].status()
-            if status is not None:
-                self.ended[name] = status
+        if name in self._running and name not in self.ended and (status := self._running[name].status()) is not None:
+            self.ended[name] = status
 
     def _signal(self, step: EndStep, keep: frozenset[ProcessKind]) -> None:
         for name, running in self._running.items():

@@ -159,8 +159,7 @@ def orders(book: OrderBook) -> list[Text]:
     """One row for each standing order: its content, and the robots that have not acknowledged it or refuse it."""
     rows = []
     for side in Side:
-        active = book.active(side)
-        if active is None:
+        if (active := book.active(side)) is None:
             continue
         receipt = book.receipt(side, active.order.sequence)
         missing = receipt.missing
@@ -190,15 +189,13 @@ def events(setup: Setup, follower: MatchFollower, count: int) -> list[Text]:
 
 def health_line(follower: MatchFollower) -> Text:
     """Speed, late ticks, number of robots that answer, messages that recorders miss."""
-    health = follower.health
-    if health is None:
+    if (health := follower.health) is None:
         return Text("no health report from the host yet", style=QUIET)
     behind = f"  recorder {max(health.recorders.values())} ticks behind" if health.recorders else "  no recorder"
     total = sum(not robot.still for robot in health.robots.values())
     pace = f"{health.pace}, paused" if health.paused else health.pace
     words = f"×{health.real_time_factor:.2f} {pace}  late {health.late_ticks}  {robots_text(health, total)}"
     line = Text(f"{words}{behind}", style=QUIET)
-    losses = losses_text(follower)
-    if losses:
+    if losses := losses_text(follower):
         line.append(f"  {losses}", TROUBLE)
     return line

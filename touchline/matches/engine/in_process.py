@@ -4,6 +4,7 @@ import signal
 import traceback
 from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import replace
+from pathlib import Path
 
 from robot_agent.loading.user_code import place_of, sentence_of
 from schemas.errors import TouchlineError
@@ -66,6 +67,16 @@ def play_in_process(planned: PlannedMatch, watch: HangWatch) -> Outcome:
         return Failed(planned.identity, FailureKind.CRASHED, reason_of(match, error), sides, evidence)
     finally:
         match.close()
+
+
+def why_not_built(planned: PlannedMatch, note: Path | None = None) -> str:
+    """Why the robots of a match cannot be built; empty if they can. One that hangs ends this process, with a note."""
+    with closing(HangWatch(note, planned.hang_s, planned.config.patience.attendance)) as watch:
+        try:
+            _WatchedMatch(planned, watch).close()
+        except TouchlineError as error:
+            return str(error)
+    return ""
 
 
 def reason_of(match: InProcessMatch, error: BaseException) -> str:

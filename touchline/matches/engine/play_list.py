@@ -3,12 +3,14 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from schemas.errors import TouchlineError
+from touchline.matches.engine.fresh_process import DiedProcessError
+from touchline.matches.engine.in_process import outcome_of_death, why_not_built
 from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch, Way
 from touchline.matches.engine.run import run_plan
 from touchline.matches.engine.session import session_of
-from touchline.play.play_match import InProcessMatch
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,16 +33,14 @@ def play_list(
 ) -> PlayedList:
     """Play matches on this machine, `jobs` at a time; 0 for one per core. `sentence_of` is shown for each.
 
-    Each pair of teams that plays in one process is built once before, so that an error in a team is reported before
-    the first match.
+    Each pair of teams that plays in one process is built once before, in a process that ends where one hangs, so that
+    an error in a team is reported before the first match.
 
     Raises:
         TouchlineError: two matches are the same, a team cannot be built, or `jobs` is negative.
     """
     plan = ListPlan(tuple(matches))
     in_process = [one for one in reversed(matches) if one.way is Way.IN_PROCESS]
-    for one in {one.config.teams.model_dump_json(): one for one in in_process}.values():
-        InProcessMatch(one.config, brain_folder=one.brain_folder).close()
     outcomes: dict[str, Outcome] = {}
 
     def told(planned: PlannedMatch, outcome: Outcome) -> str:
@@ -48,5 +48,12 @@ def play_list(
         return sentence_of(planned, outcome)
 
     with session_of(title, jobs, json=json) as session, session.interruptible():
+        for one in {one.config.teams.model_dump_json(): one for one in in_process}.values():
+            try:
+                reason = session.executor.submit(why_not_built, one).result()
+            except DiedProcessError as error:
+                reason = outcome_of_death(one, error).reason
+            if reason:
+                raise TouchlineError(reason)
         run_plan(plan, session.executor, None, told, session.progress)
     return PlayedList(outcomes, session.is_interrupted)

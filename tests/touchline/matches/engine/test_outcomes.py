@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 from schemas.config.match_config import MatchConfig
+from schemas.errors import TouchlineError
 from schemas.side import Side
 from schemas.wire.part import encode
 from support.free_match import free_match
@@ -32,6 +33,7 @@ from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Playe
 from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch, Way
 from touchline.matches.engine.play import play
+from touchline.matches.engine.play_list import play_list
 from touchline.matches.engine.run import run_plan
 from touchline.timing import HANG_RENEW_S
 from touchline.verify.resimulate import verify
@@ -69,9 +71,8 @@ def test_a_match_has_the_same_outcome_each_time_and_as_json(match_of: MatchOf, f
 
 def test_the_identity_depends_on_configuration_and_code_alone(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
     planned = PlannedMatch(match_of(), brain_folder=folder)
-    assert (
-        replace(planned, label="final", recording=tmp_path / "a.mcap", way=Way.PROCESSES).identity == planned.identity
-    )
+    elsewhere = replace(planned, label="final", recording=tmp_path / "a.mcap", way=Way.PROCESSES)
+    assert elsewhere.identity == planned.identity
     assert replace(planned, config=match_of(**{"teams.magenta.process": "team"})).identity == planned.identity
     assert replace(planned, config=match_of(seed=2)).identity != planned.identity
     assert replace(planned, config=match_of(**{"radio.loss": 0.5})).identity != planned.identity
@@ -92,8 +93,7 @@ def test_a_match_that_a_team_cannot_play_has_failed_by_its_fault(
     assert isinstance(outcome, Failed)
     assert (outcome.kind, outcome.culprits) == (kind, (Side.MAGENTA,))
     assert words in outcome.reason
-    assert outcome.evidence is not None
-    assert "planned_brains.py" in Path(outcome.evidence).read_text()
+    assert "planned_brains.py" in Path(outcome.evidence or "").read_text()
 
 
 def test_a_breakpoint_is_skipped_as_in_every_process_without_a_terminal(match_of: MatchOf, folder: Path) -> None:
@@ -119,8 +119,9 @@ def test_a_brain_that_does_not_answer_is_named_with_its_stack(match_of: MatchOf,
         outcome = outcomes[one.identity]
         assert isinstance(outcome, Failed)
         assert (outcome.kind, outcome.reason, outcome.culprits) == (*ends[one.label], (Side.CYAN,))
-        assert outcome.evidence is not None
-        assert "planned_brains.py" in Path(outcome.evidence).read_text()
+        assert "planned_brains.py" in Path(outcome.evidence or "").read_text()
+    with pytest.raises(TouchlineError, match="cyan1 is not built: no answer within 1 s"):  # before the first match
+        play_list(planned[-1:], 1, "", lambda *_: "", json=True)
 
 
 RESTS = """

@@ -21,8 +21,7 @@ def clock_offset(messages_ns: Iterable[tuple[int, int]], shortest_round_trip_s: 
     A message takes at least no time, and the fastest of them at most the shortest round trip and what the two programs
     add to it.
     """
-    fastest = min((arrived - sent for sent, arrived in messages_ns), default=None)
-    if fastest is None:
+    if (fastest := min((arrived - sent for sent, arrived in messages_ns), default=None)) is None:
         return None
     half = (shortest_round_trip_s + _PROCESSING_S) / 2
     return ClockOffset(half - fastest * 1e-9, half)

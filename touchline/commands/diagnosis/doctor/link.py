@@ -101,8 +101,7 @@ def _listen(bus: Bus) -> tuple[Health | None, list[tuple[int, int]]]:
     until = bus.clock.now() + REQUEST_S
     while bus.clock.now() < until:
         for subscription in subscriptions:
-            received = subscription.receive(POLL_S)
-            if received is None:
+            if (received := subscription.receive(POLL_S)) is None:
                 continue
             if received.stamp is not None and subscription is not history:
                 stamps.append((received.stamp.sent_ns, bus.clock.unix_ns()))
