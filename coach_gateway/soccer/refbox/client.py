@@ -242,7 +242,7 @@ class RefBoxClient:
         Cards and repairs do not: the league's box sends them right behind START.
         """
         until = self._live.time + _START_S
-        reason = ""
+        reason = "" if self._live.follower.host_present else "START is not forwarded: no host plays"
         while (
             not self._signals.changes_game
             and self._live.follower.host_present

@@ -164,6 +164,17 @@ async def test_a_stop_is_not_held_up_by_a_start_that_leads_nowhere() -> None:
         assert "referee box: not now" in bench.logged
 
 
+async def test_a_start_while_no_host_plays_is_logged_as_refused() -> None:
+    async with connected() as (bench, box, client):
+        bench.stage.say(phase=Phase.STOPPED)
+        await until(lambda: bench.live.follower.host_present)
+        bench.stage.bus.withdraw_alive("host", "host")
+        await until(lambda: bench.live.follower.gone)
+        box.say("START")
+        await until(lambda: client.counts["refused"] == 1)
+        assert asked(bench) == [] and "referee box: START is not forwarded: no host plays" in bench.logged
+
+
 async def test_park_is_ordered_to_the_robots_and_the_next_command_has_them_play() -> None:
     async with connected() as (bench, box, _):
         bench.stage.say(phase=Phase.HALF_TIME)
