@@ -1,9 +1,10 @@
 """Every figure of `touchline stats` as one flat row of numbers."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import fields
 from typing import Any
 
-from recordings.soccer.stats.figures import MatchFigures
+from recordings.soccer.stats.figures import KickCounts, MatchFigures
 from schemas.side import Side
 
 Value = float | int | None
@@ -19,6 +20,8 @@ _MATCH = ("duration", "in_play_s", "in_play", "free_s", "crowded_s", "longest_cr
 _COUNTED = ("fouls", "cards", "restarts")
 """Figures that are counted by name: rule, card, phase."""
 _RENAMED = {"kicks.goals": "goals_from_shots", "kicks.kicks": "kicks"}
+_NO_KICKS = dict.fromkeys(field.name for field in fields(KickCounts))
+"""Figures of kicks of a match in which nobody touched the ball."""
 _NOT_SUMMED = ("top_speed", "mean_speed", "possession", "result")
 """Figures of a team whose sum over both teams means nothing."""
 
@@ -49,14 +52,13 @@ def by_team(flat: Mapping[str, Value], sides: tuple[Side, Side]) -> dict[str, Va
         own = {name.partition(".")[2]: value for name, value in sided.items() if name.startswith(f"{side}.")}
         row |= {f"{team}.{name}": value for name, value in own.items()}
     row |= _result(row)
-    for name in [name.removeprefix(f"{FIRST}.") for name in row if name.startswith(f"{FIRST}.")]:
+    for name in [one.removeprefix(f"{FIRST}.") for one in row if one.startswith(f"{FIRST}.") and one.count(".") == 1]:
         first, second = row[f"{FIRST}.{name}"], row.get(f"{SECOND}.{name}")
-        if "." in name:
-            continue
         known = first is not None and second is not None
-        row[f"{name}{DIFFERENCE}"] = _rounded(first - second) if known else None  # type: ignore[operator]
+        # figures have six digits after the point
+        row[f"{name}{DIFFERENCE}"] = round(first - second, 6) if known else None  # type: ignore[operator]
         if name not in _NOT_SUMMED:
-            row[name] = _rounded(first + second) if known else None  # type: ignore[operator]
+            row[name] = round(first + second, 6) if known else None  # type: ignore[operator]
     return row
 
 
@@ -69,14 +71,10 @@ def _result(row: Mapping[str, Value]) -> dict[str, Value]:
 
 
 def _numbers(content: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Value]]:
-    for name, value in content.items():
+    for name, known in content.items():
         full = f"{prefix}{name}"
+        value = _NO_KICKS if full == "kicks" and known is None else known
         if isinstance(value, dict):
             yield from _numbers(value, f"{name}.")
         elif value is None or (isinstance(value, int | float) and not isinstance(value, bool)):
             yield _RENAMED.get(full, full.removeprefix("kicks.")), value
-
-
-def _rounded(value: float) -> Value:
-    """Sums and differences of figures, which have six digits after the point."""
-    return round(value, 6)

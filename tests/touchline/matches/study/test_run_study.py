@@ -101,6 +101,11 @@ def test_a_function_that_is_not_there_is_named_before_any_match(run: Run) -> Non
     assert played == []
 
 
+def test_figures_of_kicks_are_no_unknown_names_where_nobody_touched_the_ball(run: Run, home: Path) -> None:
+    assert run(ONE_CELL.replace("1.5", "0.2").replace('"distance"', '"passes_completed"')).played == 2
+    assert ",first.passes_completed," in (home / "results.csv").read_text()
+
+
 def test_a_study_in_which_every_match_fails_says_why(run: Run, tmp_path: Path) -> None:
     (tmp_path / "raises_always.py").write_text(
         "class Broken:\n    def __init__(self, briefing):\n        pass\n\n"
