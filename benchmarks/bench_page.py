@@ -32,9 +32,10 @@ STOPS = 5
 
 def main() -> None:
     """Print both."""
-    chromium = shutil.which("chromium") or shutil.which("google-chrome")
+    names = ("chromium-headless-shell", "chromium", "google-chrome")
+    chromium = next(filter(None, map(shutil.which, names)), None)
     if chromium is None:
-        print("page: not measured, there is no Chromium; apt-get install chromium")
+        print("page: not measured, there is no Chromium; apt-get install chromium-headless-shell")
         return
     with (
         running_match("robot_agent.teams.simple:Simple", {"duration": 3600.0, "pace": "realtime"}) as (
